@@ -1,0 +1,160 @@
+//! Cutter location data: moves along exact curves, plus machine events.
+//!
+//! # Contract
+//! - Positions are the tool tip's, mm, part coordinates. Nothing is fitted or rounded: a [`Contour`] carries
+//!   the exact cutter-centre curve and the band it may be left in; `lower` chooses its vertices.
+//! - Records are in execution order. The state before the first record is: no tool, spindle and coolant off,
+//!   position unknown, no feed.
+//! - Before a record that cuts (`Linear`, `Contour`), a tool, a spindle command and a feed have been given;
+//!   the planner reports where they are missing.
+//! - Every record knows its [`Origin`]; records between `BeginOperation` and `EndOperation` belong to that
+//!   operation.
+
+use crate::arena::{Arena, Handle};
+use crate::geom::curve::CurveRef;
+use crate::geom::{Point3, Side};
+use crate::ir::{Band, Coolant, Feed, Interpolation, Origin, Spindle, Tool};
+use crate::units::LengthUnit;
+
+pub mod print;
+
+/// Cutter location data of one program.
+#[derive(Debug, Clone, Default)]
+pub struct Cl {
+    /// Title.
+    pub title: Option<String>,
+    /// The program's unit, for output in the user's unit.
+    pub units: LengthUnit,
+    /// The cutters in use.
+    pub tools: Arena<Tool>,
+    /// Where records came from.
+    pub origins: Arena<Origin>,
+    /// The operations, in order.
+    pub operations: Vec<Operation>,
+    /// Records in order.
+    pub records: Vec<Record>,
+}
+
+/// What is known of an operation, for proof and report.
+#[derive(Debug, Clone)]
+pub struct Operation {
+    /// The user's label, or a name made from kind and number.
+    pub name: String,
+    /// `PROFIL`, `ROUGH` …
+    pub kind: &'static str,
+    /// The statement.
+    pub origin: Handle<Origin>,
+    /// Tolerance asked for.
+    pub band: Band,
+    /// What the cutter must stay out of (and rapids clear of).
+    pub guard: Guard,
+}
+
+/// The material that `verify` protects during an operation and after it.
+#[derive(Debug, Clone, Default)]
+pub struct Guard {
+    /// Finished part walls: cutter-centre curves of exact contact, with the part's side of each. A cutter
+    /// centre deeper on the part's side than the band's `into` at a height below `top` is a gouge.
+    pub walls: Vec<Wall>,
+    /// Blank round about the origin, radius in mm, if declared: rapids below `top` must stay clear of it.
+    pub blank_radius: Option<f64>,
+    /// Height above which everything is clear, mm (part's top).
+    pub top: f64,
+    /// Bottom of the operation, mm.
+    pub bottom: f64,
+}
+
+/// A wall as the cutter's centre sees it.
+#[derive(Debug, Clone)]
+pub struct Wall {
+    /// Cutter centre curve in exact contact, no allowance.
+    pub centre: CurveRef,
+    /// The side of the directed curve on which the part lies.
+    pub part: Side,
+}
+
+/// One record.
+#[derive(Debug, Clone)]
+pub struct Record {
+    /// What.
+    pub kind: RecordKind,
+    /// Where from.
+    pub origin: Handle<Origin>,
+}
+
+/// The kinds of record.
+#[derive(Debug, Clone)]
+pub enum RecordKind {
+    /// An operation starts: index into [`Cl::operations`].
+    BeginOperation(u32),
+    /// The operation ends.
+    EndOperation(u32),
+    /// Tool change.
+    LoadTool(Handle<Tool>),
+    /// Spindle.
+    Spindle(Spindle),
+    /// Feed; never [`Feed::PerTooth`].
+    Feed(Feed),
+    /// Coolant.
+    Coolant(Coolant),
+    /// Dwell, seconds.
+    Dwell(f64),
+    /// Stop.
+    Stop,
+    /// Optional stop.
+    OptionalStop,
+    /// Comment.
+    Comment(String),
+    /// Verbatim block.
+    Insert(String),
+    /// The cutter is here; no move.
+    From(Point3),
+    /// Straight at rapid.
+    Rapid(Point3),
+    /// Straight at feed.
+    Linear(Point3),
+    /// Along an exact curve at feed.
+    Contour(Box<Contour>),
+}
+
+/// A cut along an exact planar curve in the XY plane, at one or several heights.
+#[derive(Debug, Clone)]
+pub struct Contour {
+    /// Exact cutter-centre curve, directed as cut.
+    pub curve: CurveRef,
+    /// The side of travel on which the part lies; the band's `into` counts towards it.
+    pub part: Side,
+    /// The band about `curve` in which the cutter centre must stay.
+    pub band: Band,
+    /// How to express it.
+    pub interpolation: Interpolation,
+    /// Keep spans that are exact arcs or lines exact.
+    pub exact_dwells: bool,
+    /// Tip heights, mm, in the order they are cut.
+    pub levels: Vec<f64>,
+    /// Lead in; from above at `clearance` when it is not [`Lead::None`].
+    pub entry: Lead,
+    /// Lead out.
+    pub exit: Lead,
+    /// Height for the approach to each level and the retract after it, mm.
+    pub clearance: f64,
+    /// Height down to which the approach may be at rapid, mm (>= the stock's top).
+    pub approach: f64,
+    /// Feed for plunging, mm/min, if other than the cutting feed.
+    pub plunge_feed: Option<f64>,
+    /// Preferred start parameter of a closed curve; lowering may move it by up to one block.
+    pub start: Option<f64>,
+}
+
+/// How a contour is joined to the rest. Leads lie on the side away from the part.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Lead {
+    /// Start (end) of the curve itself, no approach: the planner has placed the cutter there.
+    None,
+    /// Straight down at the first (up at the last) point.
+    Plunge,
+    /// Quarter circle of this radius, mm, tangent to the contour.
+    Arc(f64),
+    /// Straight tangent line of this length, mm.
+    Line(f64),
+}

@@ -1,0 +1,1 @@
+//! CL data as APT CL text (`--emit cl`).

@@ -1,0 +1,371 @@
+//! The evaluated program.
+//!
+//! # Contract
+//! - Every name is resolved, every macro and loop is unrolled, every quantity is in mm, radians, seconds,
+//!   newtons; nothing here knows text. A node's place in the source is its [`Origin`], beside it.
+//! - Entities (cams, tools, stocks, curves) live in arenas and are immutable; [`Step`]s are in program order.
+//! - Modal settings (tolerance, clearance, tool) that an operation depends on are copied into the operation:
+//!   the planner looks at one step at a time and never back.
+//! - A program that reaches this stage has passed all checks of `sema`: handles are valid, numbers finite,
+//!   tolerances not both zero, radii positive, a tool is loaded before each operation that cuts.
+
+use crate::arena::{Arena, Handle};
+use crate::geom::cam::Cam;
+use crate::geom::curve::CurveRef;
+use crate::geom::{Point3, Side};
+use crate::source::Span;
+use crate::units::{Angle, LengthUnit};
+
+pub mod print;
+
+/// Where a node came from: the statement, and the chain of macro calls that led to it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Origin {
+    /// The statement.
+    pub span: Span,
+    /// `CALL` statements from the outermost to the innermost.
+    pub calls: Vec<Span>,
+}
+
+/// The evaluated program.
+#[derive(Debug, Clone, Default)]
+pub struct Program {
+    /// `PARTNO` text.
+    pub title: Option<String>,
+    /// `UNITS`.
+    pub units: LengthUnit,
+    /// `MACHIN` statements in order.
+    pub machines: Vec<Machine>,
+    /// Plate cams.
+    pub cams: Arena<CamEntity>,
+    /// Cutters.
+    pub tools: Arena<Tool>,
+    /// Blanks.
+    pub stocks: Arena<Stock>,
+    /// Planar curves (`CURVE`, `LINE`, `CIRCLE`, chains, `TABCYL` …).
+    pub curves: Arena<CurveEntity>,
+    /// Where nodes came from.
+    pub origins: Arena<Origin>,
+    /// What happens, in order.
+    pub steps: Vec<Step>,
+}
+
+/// `MACHIN/ post[, option…]`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Machine {
+    /// Post name as written, lower case.
+    pub post: String,
+    /// `ROTABL, C`: the rotary axis to use for R-theta output.
+    pub rotary: Option<Rotary>,
+    /// Other options as written, for the post (`KEY` or `KEY=value`).
+    pub options: Vec<(String, Option<String>)>,
+    /// The statement.
+    pub origin: Handle<Origin>,
+}
+
+/// A rotary table for R-theta output.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Rotary {
+    /// Axis letter; `None`: the dialect's default.
+    pub letter: Option<char>,
+    /// The table turns the other way than ISO 841 says.
+    pub reversed: bool,
+}
+
+/// A named plate cam.
+#[derive(Debug, Clone)]
+pub struct CamEntity {
+    /// The user's name.
+    pub name: String,
+    /// The cam.
+    pub cam: Cam,
+    /// Where it was declared.
+    pub origin: Handle<Origin>,
+}
+
+/// A named curve.
+#[derive(Debug, Clone)]
+pub struct CurveEntity {
+    /// The user's name.
+    pub name: String,
+    /// The curve.
+    pub curve: CurveRef,
+    /// Where it was declared.
+    pub origin: Handle<Origin>,
+}
+
+/// Kinds of milling cutter.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+pub enum CutterKind {
+    /// Cylindrical, flat end.
+    Flat,
+    /// Spherical end.
+    Ball,
+    /// Corner radius.
+    Bull,
+    /// Conical.
+    Taper,
+}
+
+/// A cutter; APT's seven parameters plus what a shop knows of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tool {
+    /// The user's name.
+    pub name: String,
+    /// Kind, stated or derived from the seven parameters.
+    pub kind: CutterKind,
+    /// d: diameter, mm.
+    pub diameter: f64,
+    /// r: corner radius, mm.
+    pub corner: f64,
+    /// e, f: radial and axial distance of the corner circle's centre, mm; α, β in radians; h height, mm.
+    pub profile: [f64; 5],
+    /// Tool number in the magazine, if given.
+    pub number: Option<u32>,
+    /// Flutes.
+    pub flutes: Option<u32>,
+    /// Helix angle.
+    pub helix: Option<Angle>,
+    /// Gauge length, mm.
+    pub length: Option<f64>,
+    /// Free length out of the holder, mm.
+    pub stick_out: Option<f64>,
+    /// Tool material as written.
+    pub material: Option<String>,
+    /// Where it was declared.
+    pub origin: Handle<Origin>,
+}
+
+/// A blank.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stock {
+    /// The user's name.
+    pub name: String,
+    /// Its shape.
+    pub shape: StockShape,
+    /// Where it was declared.
+    pub origin: Handle<Origin>,
+}
+
+/// Shapes of a blank; the top of a round is Z0.
+#[derive(Debug, Clone, PartialEq)]
+pub enum StockShape {
+    /// Cylinder about the origin: radius and height, mm.
+    Round {
+        /// Radius, mm.
+        radius: f64,
+        /// Height below Z0, mm, if given.
+        height: Option<f64>,
+    },
+    /// Box between two corners.
+    Block {
+        /// Lowest corner.
+        min: Point3,
+        /// Highest corner.
+        max: Point3,
+    },
+}
+
+/// How far the cut may go into the part and how much it may leave on it, mm, both >= 0.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+pub struct Band {
+    /// `INTOL`: into the part.
+    pub into: f64,
+    /// `OUTTOL`: left on the part.
+    pub out: f64,
+}
+
+/// One thing that happens.
+#[derive(Debug, Clone)]
+pub struct Step {
+    /// What.
+    pub kind: StepKind,
+    /// Where it came from.
+    pub origin: Handle<Origin>,
+}
+
+/// The things that happen.
+#[derive(Debug, Clone)]
+pub enum StepKind {
+    /// `LOADTL`.
+    LoadTool(Handle<Tool>),
+    /// `SPINDL`.
+    Spindle(Spindle),
+    /// `FEDRAT`.
+    Feed(Feed),
+    /// `COOLNT`.
+    Coolant(Coolant),
+    /// `DELAY`, seconds.
+    Dwell(f64),
+    /// `STOP`.
+    Stop,
+    /// `OPSTOP`.
+    OptionalStop,
+    /// `PPRINT`.
+    Comment(String),
+    /// `INSERT`: verbatim block.
+    Insert(String),
+    /// `FROM`: where the cutter is, without a move.
+    From(Point3),
+    /// `GOTO`, `GODLTA` made absolute; rapid when a `RAPID` stood before it.
+    Goto {
+        /// End point, mm.
+        to: Point3,
+        /// At rapid.
+        rapid: bool,
+    },
+    /// `PROFIL`.
+    Profile(Profile),
+    /// `ROUGH` of a plate cam.
+    RoughCam(RoughCam),
+}
+
+/// Spindle command.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Spindle {
+    /// Off.
+    Off,
+    /// On.
+    On {
+        /// Revolutions per minute.
+        rpm: f64,
+        /// Clockwise (M3).
+        clockwise: bool,
+    },
+}
+
+/// Feed command.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Feed {
+    /// mm/min.
+    PerMinute(f64),
+    /// mm/rev.
+    PerRevolution(f64),
+    /// mm/tooth: becomes per minute from spindle speed and flutes when the operation is planned.
+    PerTooth(f64),
+}
+
+/// Coolant command.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Coolant {
+    /// Off.
+    Off,
+    /// Flood (M8).
+    Flood,
+    /// Mist (M7).
+    Mist,
+}
+
+/// How a contour is to be expressed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+pub enum Interpolation {
+    /// Straight lines.
+    Linear,
+    /// Tangent-continuous arcs (and lines where the curve is straight).
+    Circular,
+    /// Archimedean spirals: table angle and radius.
+    RTheta,
+    /// NURBS where the control has it.
+    Nurbs,
+    /// Whatever takes the fewest blocks on the target.
+    Auto,
+}
+
+/// Cutting direction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+pub enum Cut {
+    /// Climb (down) milling: part to the right of travel with a clockwise spindle.
+    Climb,
+    /// Conventional (up) milling.
+    Conventional,
+}
+
+/// How a contour is entered and left.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Entry {
+    /// Quarter circle tangent to the contour; radius in mm, `None`: chosen by the planner.
+    TangentArc(Option<f64>),
+    /// Straight, tangent to the contour; length in mm, `None`: chosen.
+    TangentLine(Option<f64>),
+    /// Straight down (and up) at the contour's first (last) point.
+    Plunge,
+}
+
+/// Which flank of a cam.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize)]
+pub enum Flank {
+    /// The profile that the roller or face runs on from outside; the inner flank of a groove.
+    Inner,
+    /// The outer flank of a groove.
+    Outer,
+}
+
+/// What a profile operation follows.
+#[derive(Debug, Clone, PartialEq)]
+pub enum ProfileTarget {
+    /// A flank of a cam; a groove cam gives one operation a flank.
+    Cam(Handle<CamEntity>, Flank),
+    /// A chain of curves: the part's edge, and the side of the directed edge on which the cutter runs.
+    Curve {
+        /// The edges in order, each with «reversed».
+        edges: Vec<(Handle<CurveEntity>, bool)>,
+        /// The cutter's side; `None`: on the curve.
+        cutter: Option<Side>,
+    },
+}
+
+/// `PROFIL/`.
+#[derive(Debug, Clone)]
+pub struct Profile {
+    /// The user's label.
+    pub name: Option<String>,
+    /// What is followed.
+    pub target: ProfileTarget,
+    /// Interpolation.
+    pub interpolation: Interpolation,
+    /// `DWELLS, EXACT`: spans that are exact arcs or lines stay exact.
+    pub exact_dwells: bool,
+    /// Climb or conventional.
+    pub cut: Cut,
+    /// The cutter.
+    pub tool: Handle<Tool>,
+    /// Bottom below Z0, mm, positive.
+    pub depth: f64,
+    /// Largest axial step, mm.
+    pub step: Option<f64>,
+    /// Stock to leave on the contour (`THICK`), mm.
+    pub leave: f64,
+    /// Entry and exit.
+    pub entry: Entry,
+    /// Tolerance.
+    pub band: Band,
+    /// Clearance plane, mm above Z0.
+    pub clearance: f64,
+}
+
+/// `ROUGH/ cam, STOCK, b …`.
+#[derive(Debug, Clone)]
+pub struct RoughCam {
+    /// The user's label.
+    pub name: Option<String>,
+    /// The cam.
+    pub cam: Handle<CamEntity>,
+    /// The blank.
+    pub stock: Handle<Stock>,
+    /// Largest radial depth of cut, mm.
+    pub radial_step: f64,
+    /// Stock left on the contour, mm.
+    pub leave: f64,
+    /// Bottom below Z0, mm, positive.
+    pub depth: f64,
+    /// Largest axial step, mm.
+    pub axial_step: Option<f64>,
+    /// Climb or conventional for the contour pass.
+    pub cut: Cut,
+    /// The cutter.
+    pub tool: Handle<Tool>,
+    /// Tolerance.
+    pub band: Band,
+    /// Clearance plane, mm above Z0.
+    pub clearance: f64,
+}

@@ -1,0 +1,32 @@
+//! Partwright: a compiler for part programs.
+//!
+//! ```text
+//! source ─syntax─▶ ast ─sema─▶ ir ─plan─▶ cl ─lower─▶ target ─post─▶ text
+//!                               │                                │
+//!                               └──── geom ◀── verify ◀─ readback
+//! ```
+//!
+//! Data goes one way; every stage has one type in and one type out and can be printed. See ARCHITECTURE.md.
+
+#![forbid(unsafe_code)]
+#![warn(missing_docs)]
+
+pub mod arena;
+pub mod cl;
+pub mod cli;
+pub mod diag;
+pub mod geom;
+pub mod ir;
+pub mod lower;
+pub mod math;
+pub mod plan;
+pub mod plot;
+pub mod post;
+pub mod readback;
+pub mod sema;
+pub mod source;
+pub mod syntax;
+pub mod target;
+pub mod units;
+pub mod verify;
+pub mod vocab;

@@ -1,0 +1,79 @@
+//! Deterministic elementary functions.
+//!
+//! Every transcendental function of the crate comes from the `libm` crate, so
+//! that the same source gives the same bytes on every machine. `clippy.toml`
+//! bans the `std` versions. `sqrt`, `abs`, `floor` and the four operations are
+//! exact in IEEE 754 and are used from `std`.
+
+/// π/180: radians in a degree.
+pub const DEG: f64 = core::f64::consts::PI / 180.0;
+/// A full turn in radians.
+pub const TAU: f64 = core::f64::consts::TAU;
+/// Half a turn in radians.
+pub const PI: f64 = core::f64::consts::PI;
+
+/// Sine of `x` radians.
+#[must_use]
+pub fn sin(x: f64) -> f64 {
+    libm::sin(x)
+}
+/// Cosine of `x` radians.
+#[must_use]
+pub fn cos(x: f64) -> f64 {
+    libm::cos(x)
+}
+/// Sine and cosine of `x` radians, in that order.
+#[must_use]
+pub fn sin_cos(x: f64) -> (f64, f64) {
+    libm::sincos(x)
+}
+/// Tangent of `x` radians.
+#[must_use]
+pub fn tan(x: f64) -> f64 {
+    libm::tan(x)
+}
+/// Arc sine, radians.
+#[must_use]
+pub fn asin(x: f64) -> f64 {
+    libm::asin(x)
+}
+/// Arc cosine, radians.
+#[must_use]
+pub fn acos(x: f64) -> f64 {
+    libm::acos(x)
+}
+/// Arc tangent, radians.
+#[must_use]
+pub fn atan(x: f64) -> f64 {
+    libm::atan(x)
+}
+/// Angle of the vector (x, y), radians in (-π, π].
+#[must_use]
+pub fn atan2(y: f64, x: f64) -> f64 {
+    libm::atan2(y, x)
+}
+/// Length of the vector (x, y).
+#[must_use]
+pub fn hypot(x: f64, y: f64) -> f64 {
+    libm::hypot(x, y)
+}
+/// `e^x`.
+#[must_use]
+pub fn exp(x: f64) -> f64 {
+    libm::exp(x)
+}
+/// Natural logarithm.
+#[must_use]
+pub fn ln(x: f64) -> f64 {
+    libm::log(x)
+}
+/// `x^y`.
+#[must_use]
+pub fn pow(x: f64, y: f64) -> f64 {
+    libm::pow(x, y)
+}
+/// Cube root.
+#[must_use]
+pub fn cbrt(x: f64) -> f64 {
+    libm::cbrt(x)
+}

@@ -1,0 +1,1 @@
+//! IR to CL: how an operation becomes moves: passes, linking, entry, clearance.

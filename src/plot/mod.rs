@@ -1,0 +1,1 @@
+//! Pictures: cam, path and diagrams as SVG and PNG.

@@ -1,0 +1,1 @@
+//! Target program to text: dialect files and one fast table-driven writer.

@@ -1,0 +1,1 @@
+//! AST to IR: names, dimensions, macros, loops, checks.

@@ -1,0 +1,285 @@
+//! The legal program of one controller, in integers of its output grid.
+//!
+//! # Contract
+//! - Every coordinate is an integer multiple of the controller's decimal step ([`Grid`]); what is printed is
+//!   exactly what is here, so rounding is over before text exists.
+//! - Every motion is one the controller can do ([`Capabilities`]); arcs satisfy the tightest end-point radius
+//!   check known, on the integers.
+//! - Positions are absolute; modality, word order and spelling are the writer's.
+
+use crate::arena::Handle;
+use crate::geom::Side;
+use crate::geom::curve::CurveRef;
+use crate::ir::{Band, Coolant, Origin, Spindle, Tool};
+use crate::units::LengthUnit;
+
+pub mod print;
+
+/// The output grid: what one integer step means.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Grid {
+    /// Output unit.
+    pub unit: LengthUnit,
+    /// Decimals of a linear axis in that unit.
+    pub linear_decimals: u8,
+    /// Decimals of a rotary axis in degrees.
+    pub rotary_decimals: u8,
+    /// Decimals of arc-centre words.
+    pub centre_decimals: u8,
+    /// Decimals of a feed.
+    pub feed_decimals: u8,
+}
+
+impl Grid {
+    /// mm in one step of a linear axis.
+    #[must_use]
+    pub fn linear_step(&self) -> f64 {
+        self.unit.in_mm() / f64::from(10u32.pow(u32::from(self.linear_decimals)))
+    }
+    /// Degrees in one step of a rotary axis.
+    #[must_use]
+    pub fn rotary_step(&self) -> f64 {
+        1.0 / f64::from(10u32.pow(u32::from(self.rotary_decimals)))
+    }
+    /// mm in one step of an arc-centre word.
+    #[must_use]
+    pub fn centre_step(&self) -> f64 {
+        self.unit.in_mm() / f64::from(10u32.pow(u32::from(self.centre_decimals)))
+    }
+}
+
+/// A full-circle rule.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FullCircle {
+    /// One block.
+    Whole,
+    /// Must be split in this many arcs at least.
+    Split(u8),
+}
+
+/// NURBS output of a control.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum NurbsForm {
+    /// Fanuc `G06.2 P K X Y Z R`.
+    G062,
+    /// LinuxCNC `G5.2 … G5.3`.
+    G052,
+}
+
+/// What a controller can do, as far as lowering must know. Read from its dialect file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Capabilities {
+    /// Post name, for messages.
+    pub name: String,
+    /// Output grid.
+    pub grid: Grid,
+    /// Circular interpolation in the XY plane.
+    pub arcs: bool,
+    /// Largest sweep of one arc block, radians (2π when a full circle is fine).
+    pub max_sweep: f64,
+    /// Full circles.
+    pub full_circle: FullCircle,
+    /// Smallest and largest radius, mm.
+    pub radius_range: (f64, f64),
+    /// Largest |start radius − end radius| in printed numbers, mm.
+    pub radius_tolerance: f64,
+    /// Third axis may move in an arc block.
+    pub helix: bool,
+    /// NURBS form, if any.
+    pub nurbs: Option<NurbsForm>,
+    /// Rotary table, if the machine has one: letter, and whether it turns against ISO 841.
+    pub rotary: Option<RotaryAxis>,
+    /// Feed per revolution available.
+    pub feed_per_revolution: bool,
+    /// Inverse time feed available.
+    pub inverse_time: bool,
+    /// How feed is meant when a linear and a rotary axis move together.
+    pub rotary_feed: RotaryFeed,
+    /// Largest share of an operation's tolerance that the control's own path smoothing takes, mm; asked of
+    /// the control by a word (LinuxCNC `G64 P`), and subtracted from the band. `None`: exact path.
+    pub path_tolerance: Option<PathTolerance>,
+    /// Travel limits of X, Y, Z in mm, where declared.
+    pub travel: [Option<(f64, f64)>; 3],
+}
+
+/// A rotary table axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct RotaryAxis {
+    /// Address letter.
+    pub letter: char,
+    /// Turns against ISO 841.
+    pub reversed: bool,
+}
+
+/// What F means in a block that moves a linear and a rotary axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RotaryFeed {
+    /// F is the speed of the linear axes alone (LinuxCNC): use inverse time.
+    LinearAxes,
+    /// The control mixes mm and degrees as if 1 mm = 1 deg (Fanuc default).
+    MmAsDegrees,
+}
+
+/// Path-following word of a control.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PathTolerance {
+    /// Part of the band (0…1) given to the control.
+    pub share: f64,
+}
+
+/// Index of a contour piece that verification compares with its exact curve.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct PieceId(pub u32);
+
+/// The exact geometry that a run of motion blocks stands for.
+#[derive(Debug, Clone)]
+pub struct Piece {
+    /// Operation, index into [`crate::cl::Cl::operations`].
+    pub operation: u32,
+    /// Exact cutter-centre curve, directed as cut.
+    pub curve: CurveRef,
+    /// Part's side of travel.
+    pub part: Side,
+    /// Band asked for.
+    pub band: Band,
+    /// Proven lower bound on the number of blocks of this kind for this band, if known.
+    pub lower_bound: Option<u32>,
+    /// Number of motion blocks that stand for the curve (leads not counted).
+    pub blocks: u32,
+    /// Interpolation used, for the report.
+    pub interpolation: crate::ir::Interpolation,
+    /// Tip height, mm.
+    pub z: f64,
+}
+
+/// The program of one controller.
+#[derive(Debug, Clone)]
+pub struct TargetProgram {
+    /// Title.
+    pub title: Option<String>,
+    /// What was possible.
+    pub capabilities: Capabilities,
+    /// Tools in use, in order of first use.
+    pub tools: Vec<Tool>,
+    /// Exact pieces, for verification.
+    pub pieces: Vec<Piece>,
+    /// NURBS curves that [`Motion::Nurbs`] refers to.
+    pub nurbs: Vec<Nurbs>,
+    /// Blocks in order.
+    pub blocks: Vec<Block>,
+}
+
+/// One block or event, with its provenance.
+#[derive(Debug, Clone)]
+pub struct Block {
+    /// What.
+    pub kind: BlockKind,
+    /// Where from.
+    pub origin: Handle<Origin>,
+    /// The exact piece it is part of, if it cuts along one.
+    pub piece: Option<PieceId>,
+}
+
+/// Position in grid steps: X, Y, Z, rotary.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Position {
+    /// X steps.
+    pub x: i64,
+    /// Y steps.
+    pub y: i64,
+    /// Z steps.
+    pub z: i64,
+    /// Rotary steps; 0 when the machine has none.
+    pub r: i64,
+}
+
+/// Feed of a motion, in the unit of its mode.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FeedWord {
+    /// Output units a minute, in steps of 10^-feed_decimals.
+    PerMinute(i64),
+    /// Output units a revolution, in steps of 10^-(feed_decimals + 2).
+    PerRevolution(i64),
+    /// 1/minutes, in steps of 10^-4.
+    InverseTime(i64),
+}
+
+/// A motion. The position before it is that of the block before it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Motion {
+    /// Straight at rapid.
+    Rapid {
+        /// End.
+        to: Position,
+        /// Axes that have been programmed before this block are free to be left out by modality; axes whose
+        /// position is not known yet must not move: bit 0 X, 1 Y, 2 Z, 3 rotary are the axes this block moves.
+        axes: u8,
+    },
+    /// Straight at feed (with a rotary axis: an Archimedean spiral in the part).
+    Line {
+        /// End.
+        to: Position,
+        /// Feed.
+        feed: FeedWord,
+    },
+    /// Arc in the XY plane, helix when Z moves.
+    Arc {
+        /// End.
+        to: Position,
+        /// Centre minus start, in steps of the centre words.
+        centre: [i64; 2],
+        /// Clockwise (G2).
+        clockwise: bool,
+        /// Feed.
+        feed: FeedWord,
+    },
+    /// Index into [`TargetProgram::nurbs`].
+    Nurbs {
+        /// Which.
+        curve: u32,
+        /// Feed.
+        feed: FeedWord,
+    },
+}
+
+/// A NURBS curve in grid steps; its first control point is the position before it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Nurbs {
+    /// Order (degree + 1).
+    pub order: u8,
+    /// Control points with their weights, the first included.
+    pub points: Vec<(Position, f64)>,
+    /// Knots, points + order of them.
+    pub knots: Vec<f64>,
+}
+
+/// What a block is.
+#[derive(Debug, Clone)]
+pub enum BlockKind {
+    /// Start of the program: the dialect's header.
+    Begin,
+    /// End of the program: the dialect's footer.
+    End,
+    /// Tool change: index into [`TargetProgram::tools`].
+    ToolChange(u32),
+    /// Spindle.
+    Spindle(Spindle),
+    /// Coolant.
+    Coolant(Coolant),
+    /// Dwell, seconds.
+    Dwell(f64),
+    /// Stop.
+    Stop,
+    /// Optional stop.
+    OptionalStop,
+    /// Comment.
+    Comment(String),
+    /// Verbatim block.
+    Insert(String),
+    /// Path tolerance for what follows, mm; `None`: exact path.
+    PathTolerance(Option<f64>),
+    /// An operation starts (its name as a comment).
+    BeginOperation(String),
+    /// A motion.
+    Motion(Motion),
+}

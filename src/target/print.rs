@@ -1,0 +1,1 @@
+//! The target program as text (`--emit target`).

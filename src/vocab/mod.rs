@@ -1,0 +1,1 @@
+//! The one table of statements, words, slots, dimensions, defaults and help texts.
