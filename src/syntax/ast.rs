@@ -1,7 +1,9 @@
 //! The syntax tree: statements with byte spans, comments kept.
 //!
-//! The tree knows no vocabulary: whether `CUTTER` is a major word, a minor word
-//! or somebody's variable is decided in `sema`. Blocks (`MACRO … TERMAC`,
+//! The tree knows next to no vocabulary: whether `FLAT` is a minor word or somebody's variable is decided in
+//! `sema`. The one question asked of the vocabulary is [`crate::vocab::is_statement_word`], because `R = D/2`
+//! divides and `C = CIRCLE/ 2` declares: `name = WORD/ …` and `(WORD/ …)` with a statement word are commands;
+//! `name = x/ a, b` with several arguments is a command too, of a word that `sema` will not know. Blocks (`MACRO … TERMAC`,
 //! `IF … ENDIF`, `DO … ENDDO`) are a flat run of statements here; `sema` matches
 //! them, so that one bad line never loses a block.
 
@@ -45,6 +47,8 @@ impl Name {
 pub struct Statement {
     /// From its first to its last mark, continuation included.
     pub span: Span,
+    /// `LA1)` in front of it: target of `JUMPTO` and of the arithmetic IF; may be all digits.
+    pub jump_label: Option<Name>,
     /// What it is.
     pub kind: StatementKind,
 }
@@ -130,7 +134,11 @@ pub enum StatementKind {
     /// `JUMPTO/ label`.
     JumpTo(Name),
     /// Could not be parsed; its errors have been reported.
-    Bad,
+    Bad {
+        /// The name it would have declared, if that much could be read: later uses of that name are not
+        /// mistakes of their own.
+        declares: Option<Name>,
+    },
 }
 
 /// A macro parameter.
@@ -151,11 +159,9 @@ pub struct CallArgument {
     pub value: Arg,
 }
 
-/// `[label =] MAJOR[/ args]`, also with an APT jump label `LA1)` in front.
+/// `[label =] MAJOR[/ args]`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Command {
-    /// `LA1)`: target of `JUMPTO`.
-    pub jump_label: Option<Name>,
     /// `label =`, possibly subscripted.
     pub label: Option<Target>,
     /// Compound motion `TLRGT, GORGT/ …`: the words before the last.
@@ -181,7 +187,7 @@ pub struct Target {
 /// table whether it is a minor word or a variable.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Arg {
-    /// Its span; for an empty argument (`,,`) the place where it should be.
+    /// Its span.
     pub span: Span,
     /// What it is.
     pub kind: ArgKind,
@@ -199,10 +205,8 @@ pub enum ArgKind {
         /// The value.
         value: Expr,
     },
-    /// A nested definition `(POINT/ 1, 2)`, or with a label `(P1 = POINT/ 1, 2)`.
+    /// A nested definition `(POINT/ 1, 2)`, or with a label `(P1 = POINT/ 1, 2)`, alone between the commas.
     Nested(Box<Command>),
-    /// Nothing between two commas.
-    Empty,
 }
 
 /// An expression.
@@ -244,6 +248,9 @@ pub enum ExprKind {
     },
     /// `(x, y)` or `(x, y, z)`.
     Tuple(Vec<Expr>),
+    /// A nested definition inside an expression: `DIST((POINT/ 1, 2), P1)`. Alone as an argument of a statement
+    /// it is [`ArgKind::Nested`].
+    Nested(Box<Command>),
     /// `(e)`; kept because APT's precedence warnings and the formatter need it.
     Paren(Box<Expr>),
     /// `-e`, `+e`, `NOT e`.
