@@ -5,8 +5,9 @@
 #[must_use]
 pub fn is_statement_word(word: &str) -> bool {
     const WORDS: &[&str] = &[
-        "POINT", "VECTOR", "LINE", "CIRCLE", "PLANE", "MATRIX", "PATERN", "TABCYL", "SPLINE", "CURVE", "BEZIER",
-        "NET", "FOLLOW", "MOTION", "CAM", "CUTTER", "STOCK", "ROUGH", "PROFIL", "GOTO", "GODLTA", "FROM",
+        "POINT", "VECTOR", "LINE", "CIRCLE", "PLANE", "MATRIX", "PATERN", "TABCYL", "SPLINE", "CURVE",
+        "BEZIER", "NET", "FOLLOW", "MOTION", "CAM", "CUTTER", "STOCK", "ROUGH", "PROFIL", "GOTO", "GODLTA",
+        "FROM",
     ];
     WORDS.iter().any(|w| w.eq_ignore_ascii_case(word))
 }
