@@ -26,26 +26,38 @@ pub struct Grid {
     pub rotary_decimals: u8,
     /// Decimals of arc-centre words.
     pub centre_decimals: u8,
-    /// Decimals of a feed.
+    /// Decimals of a feed per minute.
     pub feed_decimals: u8,
+    /// Decimals of a feed per revolution.
+    pub feed_per_revolution_decimals: u8,
+    /// Decimals of an inverse time feed.
+    pub inverse_time_decimals: u8,
+    /// What is printed for a feed of one output unit a minute (10 where inch feeds are in 0.1 inch/min).
+    pub feed_scale: f64,
 }
 
 impl Grid {
     /// mm in one step of a linear axis.
     #[must_use]
     pub fn linear_step(&self) -> f64 {
-        self.unit.in_mm() / f64::from(10u32.pow(u32::from(self.linear_decimals)))
+        self.unit.in_mm() / power_of_ten(self.linear_decimals)
     }
     /// Degrees in one step of a rotary axis.
     #[must_use]
     pub fn rotary_step(&self) -> f64 {
-        1.0 / f64::from(10u32.pow(u32::from(self.rotary_decimals)))
+        1.0 / power_of_ten(self.rotary_decimals)
     }
     /// mm in one step of an arc-centre word.
     #[must_use]
     pub fn centre_step(&self) -> f64 {
-        self.unit.in_mm() / f64::from(10u32.pow(u32::from(self.centre_decimals)))
+        self.unit.in_mm() / power_of_ten(self.centre_decimals)
     }
+}
+
+/// 10^`decimals`.
+#[must_use]
+pub fn power_of_ten(decimals: u8) -> f64 {
+    (0..decimals).fold(1.0, |product, _| product * 10.0)
 }
 
 /// A full-circle rule.
@@ -98,8 +110,27 @@ pub struct Capabilities {
     /// Largest share of an operation's tolerance that the control's own path smoothing takes, mm; asked of
     /// the control by a word (LinuxCNC `G64 P`), and subtracted from the band. `None`: exact path.
     pub path_tolerance: Option<PathTolerance>,
-    /// Travel limits of X, Y, Z in mm, where declared.
+    /// Travel limits of X, Y, Z in mm, in program coordinates, where declared.
     pub travel: [Option<(f64, f64)>; 3],
+    /// Largest numbers that fit the words.
+    pub ranges: Ranges,
+}
+
+/// Largest printed magnitudes of words, in their steps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Ranges {
+    /// X, Y, Z.
+    pub linear: i64,
+    /// Rotary axis.
+    pub rotary: i64,
+    /// Arc centre words.
+    pub centre: i64,
+    /// Feed per minute.
+    pub feed_per_minute: i64,
+    /// Feed per revolution.
+    pub feed_per_revolution: i64,
+    /// Inverse time feed.
+    pub inverse_time: i64,
 }
 
 /// A rotary table axis.
@@ -114,10 +145,10 @@ pub struct RotaryAxis {
 /// What F means in a block that moves a linear and a rotary axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RotaryFeed {
-    /// F is the speed of the linear axes alone (LinuxCNC): use inverse time.
+    /// F is the speed of the linear axes alone where one moves, else degrees a minute (LinuxCNC).
     LinearAxes,
-    /// The control mixes mm and degrees as if 1 mm = 1 deg (Fanuc default).
-    MmAsDegrees,
+    /// The control mixes the axes as if one output unit were one degree (Fanuc default).
+    UnitsAsDegrees,
 }
 
 /// Path-following word of a control.
@@ -150,6 +181,9 @@ pub struct Piece {
     pub interpolation: crate::ir::Interpolation,
     /// Tip height, mm.
     pub z: f64,
+    /// Part of the band, on both sides, that the control's own path smoothing may use, mm; the fit keeps
+    /// that much inside the band.
+    pub reserved: f64,
 }
 
 /// The program of one controller.
@@ -196,11 +230,11 @@ pub struct Position {
 /// Feed of a motion, in the unit of its mode.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FeedWord {
-    /// Output units a minute, in steps of 10^-feed_decimals.
+    /// Output units a minute times [`Grid::feed_scale`], in steps of 10^-[`Grid::feed_decimals`].
     PerMinute(i64),
-    /// Output units a revolution, in steps of 10^-(feed_decimals + 2).
+    /// Output units a revolution, in steps of 10^-[`Grid::feed_per_revolution_decimals`].
     PerRevolution(i64),
-    /// 1/minutes, in steps of 10^-4.
+    /// 1/minutes, in steps of 10^-[`Grid::inverse_time_decimals`].
     InverseTime(i64),
 }
 
@@ -209,10 +243,9 @@ pub enum FeedWord {
 pub enum Motion {
     /// Straight at rapid.
     Rapid {
-        /// End.
+        /// End; components of axes that do not move here and were never programmed before are meaningless.
         to: Position,
-        /// Axes that have been programmed before this block are free to be left out by modality; axes whose
-        /// position is not known yet must not move: bit 0 X, 1 Y, 2 Z, 3 rotary are the axes this block moves.
+        /// The axes this block moves: bit 0 X, 1 Y, 2 Z, 3 rotary ([`axes`]). The others are not printed.
         axes: u8,
     },
     /// Straight at feed (with a rotary axis: an Archimedean spiral in the part).
@@ -240,6 +273,18 @@ pub enum Motion {
         /// Feed.
         feed: FeedWord,
     },
+}
+
+/// Bits of [`Motion::Rapid::axes`].
+pub mod axes {
+    /// X moves.
+    pub const X: u8 = 1;
+    /// Y moves.
+    pub const Y: u8 = 2;
+    /// Z moves.
+    pub const Z: u8 = 4;
+    /// The rotary axis moves.
+    pub const ROTARY: u8 = 8;
 }
 
 /// A NURBS curve in grid steps; its first control point is the position before it.
