@@ -8,6 +8,28 @@ use std::sync::Arc;
 
 use super::{Point2, Vec2, left};
 
+mod arc;
+mod bezier;
+mod chain;
+mod moved;
+mod offset;
+mod part;
+mod reversed;
+mod segment;
+mod spline;
+#[cfg(test)]
+pub(crate) mod testing;
+
+pub use arc::CircularArc;
+pub use bezier::{Bezier, bezier_chain};
+pub use chain::{Chain, ChainError, Joint};
+pub use moved::{Moved, Placement};
+pub use offset::Offset;
+pub use part::{Part, restarted};
+pub use reversed::Reversed;
+pub use segment::Segment;
+pub use spline::{Ends, Spline, SplineError};
+
 /// Point of a curve with its tangent and curvature.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Frenet {
@@ -83,3 +105,37 @@ pub trait PlanarCurve: core::fmt::Debug + Send + Sync {
 
 /// A shared curve.
 pub type CurveRef = Arc<dyn PlanarCurve>;
+
+/// Index of the smooth span that holds `u`: at a break the span that starts there, at and past the end the
+/// last one, before the start the first one.
+#[must_use]
+pub fn span_of(breaks: &[f64], u: f64) -> usize {
+    let last = breaks.len().saturating_sub(2);
+    breaks.partition_point(|b| *b <= u).saturating_sub(1).min(last)
+}
+
+/// The smooth spans of a curve in order: index, first and last parameter.
+pub fn spans(curve: &dyn PlanarCurve) -> impl Iterator<Item = (usize, f64, f64)> + '_ {
+    curve.breaks().windows(2).enumerate().map(|(i, w)| (i, w[0], w[1]))
+}
+
+/// First and last point of a curve.
+#[must_use]
+pub fn ends(curve: &dyn PlanarCurve) -> (Point2, Point2) {
+    let (a, b) = curve.domain();
+    (curve.at(a).p, curve.at(b).p)
+}
+
+/// A parameter of a closed curve brought into its domain by whole turns; of an open curve, clamped to it.
+#[must_use]
+pub fn into_domain(curve: &dyn PlanarCurve, u: f64) -> f64 {
+    let (a, b) = curve.domain();
+    if (a..=b).contains(&u) {
+        return u;
+    }
+    if !curve.is_closed() {
+        return u.clamp(a, b);
+    }
+    let turns = ((u - a) / (b - a)).floor();
+    (u - turns * (b - a)).clamp(a, b)
+}

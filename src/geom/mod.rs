@@ -7,6 +7,7 @@ pub mod cam;
 pub mod curve;
 pub mod follower;
 pub mod motion;
+mod tridiagonal;
 
 /// A point of the working plane, mm.
 pub type Point2 = nalgebra::Point2<f64>;
