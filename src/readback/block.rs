@@ -1,0 +1,260 @@
+//! One block of a word-address program: cutting the line into words.
+
+use super::number::{Number, NumberError, number};
+use super::rules::Rules;
+
+/// Most G (or M) codes that a block may hold before it is refused.
+const MAX_CODES: usize = 16;
+
+/// Bit of an address letter in a mask.
+pub(super) const fn bit(letter: u8) -> u32 {
+    1 << (letter - b'A')
+}
+
+/// The G or M codes of a block, in tenths (G5.2 is 52).
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Codes {
+    items: [u16; MAX_CODES],
+    len: usize,
+}
+
+impl Codes {
+    fn push(&mut self, code: u16) -> bool {
+        let room = self.items.get_mut(self.len);
+        let fits = room.is_some();
+        if let Some(slot) = room {
+            *slot = code;
+            self.len += 1;
+        }
+        fits
+    }
+    /// The codes in the order they stand.
+    pub(super) fn iter(&self) -> impl Iterator<Item = u16> + '_ {
+        self.items.iter().take(self.len).copied()
+    }
+    /// How many.
+    pub(super) fn len(&self) -> usize {
+        self.len
+    }
+}
+
+/// The words of a block. Values are as written; scaling to units is the interpreter's.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Block {
+    /// G codes in tenths.
+    pub g: Codes,
+    /// M codes in tenths.
+    pub m: Codes,
+    /// Letters present, G and M excepted.
+    pub seen: u32,
+    /// Letters whose number has a decimal point.
+    pub pointed: u32,
+    /// Characters that count towards the line limit.
+    pub length: usize,
+    /// A slash stood first: skipped when the switch is on.
+    pub optional: bool,
+    /// The block is nothing but a percent sign.
+    pub percent: bool,
+    values: [f64; 26],
+}
+
+impl Block {
+    /// The value of a letter, if it is there.
+    pub(super) fn get(&self, letter: u8) -> Option<f64> {
+        let index = usize::from(letter.wrapping_sub(b'A'));
+        self.values.get(index).copied().filter(|_| self.seen & bit(letter) != 0)
+    }
+    /// Whether a letter is there.
+    pub(super) fn has(&self, letter: u8) -> bool {
+        self.seen & bit(letter) != 0
+    }
+    /// Whether the number of the letter was written with a point.
+    pub(super) fn point(&self, letter: u8) -> bool {
+        self.pointed & bit(letter) != 0
+    }
+    /// Whether it holds no word at all.
+    pub(super) fn is_empty(&self) -> bool {
+        self.seen == 0 && self.g.len == 0 && self.m.len == 0
+    }
+    fn clear(&mut self) {
+        self.g.len = 0;
+        self.m.len = 0;
+        self.seen = 0;
+        self.pointed = 0;
+        self.length = 0;
+        self.optional = false;
+        self.percent = false;
+    }
+    fn put(&mut self, letter: u8, number: Number) -> bool {
+        let fresh = !self.has(letter);
+        if let Some(slot) = self.values.get_mut(usize::from(letter - b'A')) {
+            *slot = number.value;
+        }
+        self.seen |= bit(letter);
+        self.pointed |= if number.point { bit(letter) } else { 0 };
+        fresh
+    }
+}
+
+/// Cuts `line` (without its line end) into words. What the control would refuse goes to `fault`; the words
+/// that could be read are in the block all the same.
+pub(super) fn read(line: &[u8], rules: &Rules, block: &mut Block, fault: &mut dyn FnMut(String)) {
+    block.clear();
+    let mut at = 0;
+    while let Some(&c) = line.get(at) {
+        at = match c {
+            b'A'..=b'Z' => word(line, at, c, rules, block, fault),
+            b' ' | b'\t' => at + 1,
+            b'(' => comment(line, at, rules, fault),
+            b';' if rules.semicolon_comment => {
+                check_comment(line.get(at + 1..).unwrap_or_default(), rules, fault);
+                line.len()
+            }
+            b'/' => slash(block, at, fault),
+            b'%' => percent(line, at, rules, block, fault),
+            b'a'..=b'z' => {
+                lower_case(c, at, rules, fault);
+                word(line, at, c.to_ascii_uppercase(), rules, block, fault)
+            }
+            _ => {
+                fault(stray(c, at));
+                at + 1
+            }
+        };
+    }
+    block.length = match rules.line_limit {
+        Some(limit) if line.len() > limit && !rules.limit_counts_all => stripped_length(line),
+        _ => line.len(),
+    };
+}
+
+/// Characters of a line that are neither blanks nor in a comment.
+fn stripped_length(line: &[u8]) -> usize {
+    let mut inside = false;
+    let mut count = 0;
+    for &c in line {
+        match c {
+            b';' if !inside => break,
+            b'(' => inside = true,
+            b')' => inside = false,
+            c if !inside && c > b' ' => count += 1,
+            _ => {}
+        }
+    }
+    count
+}
+
+fn stray(c: u8, at: usize) -> String {
+    let shown = if c.is_ascii_graphic() { format!("'{}'", char::from(c)) } else { format!("byte 0x{c:02X}") };
+    format!("bad character {shown} in column {}", at + 1)
+}
+
+fn lower_case(c: u8, at: usize, rules: &Rules, fault: &mut dyn FnMut(String)) {
+    if !rules.lower_case {
+        fault(format!("lower case letter '{}' in column {}", char::from(c), at + 1));
+    }
+}
+
+fn slash(block: &mut Block, at: usize, fault: &mut dyn FnMut(String)) -> usize {
+    if !block.is_empty() {
+        fault(format!("'/' in column {} is not at the start of the block", at + 1));
+    }
+    block.optional = true;
+    at + 1
+}
+
+fn percent(line: &[u8], at: usize, rules: &Rules, block: &mut Block, fault: &mut dyn FnMut(String)) -> usize {
+    let alone = line.iter().enumerate().all(|(i, c)| i == at || c.is_ascii_whitespace());
+    if !alone || !rules.percent_allowed {
+        fault(format!("'%' in column {} {}", at + 1, if alone { "is not a command" } else { "is not alone on its line" }));
+    }
+    block.percent |= alone;
+    line.len()
+}
+
+/// A letter and its number; gives where to go on.
+fn word(
+    line: &[u8],
+    at: usize,
+    letter: u8,
+    rules: &Rules,
+    block: &mut Block,
+    fault: &mut dyn FnMut(String),
+) -> usize {
+    let (value, end) = match number(line, at + 1) {
+        Ok(read) => read,
+        Err((error, end)) => {
+            fault(bad_number(letter, error, line, at));
+            return end.max(at + 1);
+        }
+    };
+    store(letter, value, rules, block, fault);
+    end
+}
+
+fn bad_number(letter: u8, error: NumberError, line: &[u8], at: usize) -> String {
+    let letter = char::from(letter);
+    match error {
+        NumberError::NoDigits if matches!(line.get(at + 1), Some(b'[' | b'#')) => {
+            format!("{letter} is followed by an expression, which this reader does not follow")
+        }
+        NumberError::NoDigits => format!("{letter} in column {} is not followed by a number", at + 1),
+        NumberError::SecondPoint => format!("the number of {letter} in column {} has two decimal points", at + 1),
+        NumberError::TooLong => format!("the number of {letter} in column {} has too many digits", at + 1),
+    }
+}
+
+fn store(letter: u8, value: Number, rules: &Rules, block: &mut Block, fault: &mut dyn FnMut(String)) {
+    if matches!(letter, b'G' | b'M') {
+        return store_code(letter, value, block, fault);
+    }
+    if rules.whole_numbers.contains(&letter) && value.point {
+        fault(format!("{}{} carries a decimal point; the control wants an integer", char::from(letter), value.value));
+    }
+    if !block.put(letter, value) {
+        fault(format!("multiple {} words in one block", char::from(letter)));
+    }
+}
+
+/// G and M codes, in tenths: integers within 0.0001 of a tenth.
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+fn store_code(letter: u8, value: Number, block: &mut Block, fault: &mut dyn FnMut(String)) {
+    let tenths = value.value * 10.0;
+    let nearest = tenths.round();
+    if !(0.0..=9999.0).contains(&nearest) || (tenths - nearest).abs() > 1e-3 {
+        return fault(format!("unknown code {}{}", char::from(letter), value.value));
+    }
+    let codes = if letter == b'G' { &mut block.g } else { &mut block.m };
+    if !codes.push(nearest as u16) {
+        fault(format!("more than {MAX_CODES} {} codes in one block", char::from(letter)));
+    }
+}
+
+/// A comment in parentheses that starts at `at`; gives where the block goes on.
+fn comment(line: &[u8], at: usize, rules: &Rules, fault: &mut dyn FnMut(String)) -> usize {
+    let rest = line.get(at + 1..).unwrap_or_default();
+    let close = rest.iter().position(|&c| c == b')');
+    let body = rest.get(..close.unwrap_or(rest.len())).unwrap_or_default();
+    if close.is_none() && !rules.comment_may_stay_open {
+        fault(format!("the comment in column {} is not closed", at + 1));
+    }
+    if let Some(nested) = body.iter().position(|&c| c == b'(').filter(|_| !rules.comment_may_nest) {
+        fault(format!("a comment in a comment, column {}", at + nested + 2));
+    }
+    check_comment(body, rules, fault);
+    at + 1 + close.map_or(rest.len(), |c| c + 1)
+}
+
+fn check_comment(body: &[u8], rules: &Rules, fault: &mut dyn FnMut(String)) {
+    if let Some(&c) = body.iter().find(|&&c| !(rules.comment_character)(c)) {
+        let shown =
+            if c.is_ascii_graphic() { format!("'{}'", char::from(c)) } else { format!("byte 0x{c:02X}") };
+        fault(format!("{} {shown} in a comment", rules.comment_complaint));
+    }
+    let text = body.trim_ascii_start();
+    for command in rules.active_comments {
+        if text.get(..command.len()).is_some_and(|start| start.eq_ignore_ascii_case(command.as_bytes())) {
+            fault(format!("the comment starts with {command}, which the control obeys as a command"));
+        }
+    }
+}

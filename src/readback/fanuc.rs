@@ -1,0 +1,110 @@
+//! Fanuc 30i milling, G-code system of machining centres.
+
+use super::FeedMode;
+use super::codes::{G, Group, M, Mode, Plane};
+use super::rules::{Frame, Rules};
+
+pub(super) const RULES: Rules = Rules {
+    name: "fanuc",
+    frame: Frame::PercentAndNumber,
+    semicolon_comment: false,
+    comment_may_stay_open: false,
+    comment_may_nest: false,
+    comment_character: |c| {
+        c.is_ascii_uppercase() || c.is_ascii_digit() || b" .,=_-+/*#:[]<>&'".contains(&c)
+    },
+    comment_complaint: "the control's character set has no",
+    active_comments: &[],
+    percent_allowed: true,
+    lower_case: false,
+    line_limit: None,
+    limit_counts_all: true,
+    whole_numbers: b"NOTDHSLMP",
+    least_increments: true,
+    largest_n: 99_999_999.0,
+    largest_t: 99_999_999.0,
+    most_m: 1,
+    g,
+    m,
+    dwell_p: 0.001,
+    dwell_x: true,
+    tool_change: true,
+    length_offset: true,
+    starts_at_rapid: false,
+    blends: false,
+    radius_wins: true,
+    arc_turns: false,
+    arc_needs_end: false,
+    largest_difference: |_| 0.01,
+    arc_complaint: "alarm PS0020, over tolerance of radius",
+    full_circle_fuzz: 0.0,
+    smallest_radius: 0.0,
+    no_feed: "alarm PS0011, no feed commanded",
+    unused: "no code in the block uses it",
+};
+
+fn g(tenths: u16) -> Option<G> {
+    Some(match tenths {
+        0 => G::Motion(Mode::Rapid),
+        10 => G::Motion(Mode::Linear),
+        20 => G::Motion(Mode::Arc { clockwise: true }),
+        30 => G::Motion(Mode::Arc { clockwise: false }),
+        40 => G::Dwell,
+        62 => G::Motion(Mode::NurbsKnots),
+        170 => G::Plane(Plane::Xy),
+        180 => G::Plane(Plane::Zx),
+        190 => G::Plane(Plane::Yz),
+        200 => G::Units { inch: true },
+        210 => G::Units { inch: false },
+        280 | 300 => G::Reference,
+        400 => G::RadiusOff,
+        430 => G::LengthOn,
+        490 => G::LengthOff,
+        530 => G::MachineCoordinates,
+        540 | 541 | 550 | 560 | 570 | 580 | 590 => G::WorkOffset,
+        610 => G::ExactPath,
+        640 => G::NoEffect(Group::Path),
+        800 => G::Motion(Mode::None),
+        900 => G::Distance { incremental: false },
+        910 => G::Distance { incremental: true },
+        930 => G::Feed(FeedMode::InverseTime),
+        940 => G::Feed(FeedMode::PerMinute),
+        950 => G::Feed(FeedMode::PerRevolution),
+        150 | 501 | 500 | 670 | 690 | 131 => G::NoEffect(Group::Other),
+        50 | 51 | 80 => G::NoEffect(Group::Once),
+        970 => G::NoEffect(Group::Speed),
+        980 | 990 => G::NoEffect(Group::Return),
+        _ => return unfollowed(tenths),
+    })
+}
+
+fn unfollowed(tenths: u16) -> Option<G> {
+    Some(G::Unfollowed(match tenths {
+        24 | 34 | 330 => Group::Motion,
+        71 | 90 | 100 | 110 | 270 | 290 | 310 | 520 | 600 | 650 | 920 => Group::Once,
+        410 | 420 => Group::Radius,
+        431 | 434 | 435 | 440 => Group::Length,
+        620 | 630 => Group::Path,
+        730 | 740 | 760 | 810..=890 => Group::Motion,
+        960 => Group::Speed,
+        121 | 160 | 510 | 511 | 660 | 680 => Group::Other,
+        _ => return None,
+    }))
+}
+
+fn m(tenths: u16) -> Option<M> {
+    Some(match tenths {
+        0 => M::Stop { optional: false },
+        10 => M::Stop { optional: true },
+        20 | 300 => M::End,
+        30 => M::SpindleOn { clockwise: true },
+        40 => M::SpindleOn { clockwise: false },
+        50 => M::SpindleOff,
+        60 => M::ToolChange,
+        70 | 80 => M::CoolantOn,
+        90 => M::CoolantOff,
+        480 | 490 => M::NoEffect,
+        190 | 290 | 980 | 990 | 1980 => M::Unfollowed,
+        _ => return None,
+    })
+}

@@ -1,0 +1,114 @@
+//! LinuxCNC, from its G-code reference and the behaviour of its interpreter.
+
+use super::FeedMode;
+use super::codes::{G, Group, M, Mode, Plane};
+use super::rules::{Frame, Rules};
+
+pub(super) const RULES: Rules = Rules {
+    name: "linuxcnc",
+    frame: Frame::PercentPairOrEnd,
+    semicolon_comment: true,
+    comment_may_stay_open: false,
+    comment_may_nest: false,
+    comment_character: |c| c != 0,
+    comment_complaint: "the control stops at",
+    active_comments: &["DEBUG,", "PRINT,", "LOG,", "LOGOPEN,", "LOGAPPEND,", "LOGCLOSE", "PROBEOPEN", "PROBECLOSE"],
+    percent_allowed: true,
+    lower_case: true,
+    line_limit: Some(255),
+    limit_counts_all: true,
+    whole_numbers: &[],
+    least_increments: false,
+    largest_n: 99_999.0,
+    largest_t: 2_147_483_647.0,
+    most_m: 4,
+    g,
+    m,
+    dwell_p: 1.0,
+    dwell_x: false,
+    tool_change: true,
+    length_offset: true,
+    starts_at_rapid: false,
+    blends: true,
+    radius_wins: false,
+    arc_turns: true,
+    arc_needs_end: false,
+    largest_difference,
+    arc_complaint: "Radius to end of arc differs from radius to start",
+    full_circle_fuzz: 1e-6,
+    smallest_radius: 0.001_27,
+    no_feed: "with zero feed rate",
+    unused: "no code in the block uses it",
+};
+
+/// The manual's bound, tighter than the source's: 0.5 mm, or 0.005 mm and 0.1 % of the radius.
+fn largest_difference(radius: f64) -> f64 {
+    (0.001 * radius).clamp(0.005, 0.5)
+}
+
+fn g(tenths: u16) -> Option<G> {
+    Some(match tenths {
+        0 => G::Motion(Mode::Rapid),
+        10 => G::Motion(Mode::Linear),
+        20 => G::Motion(Mode::Arc { clockwise: true }),
+        30 => G::Motion(Mode::Arc { clockwise: false }),
+        40 => G::Dwell,
+        52 => G::Motion(Mode::NurbsPoints),
+        53 => G::NurbsEnd,
+        170 => G::Plane(Plane::Xy),
+        180 => G::Plane(Plane::Zx),
+        190 => G::Plane(Plane::Yz),
+        200 => G::Units { inch: true },
+        210 => G::Units { inch: false },
+        280 | 300 => G::Reference,
+        400 => G::RadiusOff,
+        430 => G::LengthOn,
+        490 => G::LengthOff,
+        530 => G::MachineCoordinates,
+        540 | 550 | 560 | 570 | 580 | 590 | 591 | 592 | 593 => G::WorkOffset,
+        610 | 611 => G::ExactPath,
+        640 => G::Blend,
+        800 => G::Motion(Mode::None),
+        900 => G::Distance { incremental: false },
+        910 => G::Distance { incremental: true },
+        901 => G::ArcDistance { incremental: false },
+        911 => G::ArcDistance { incremental: true },
+        930 => G::Feed(FeedMode::InverseTime),
+        940 => G::Feed(FeedMode::PerMinute),
+        950 => G::Feed(FeedMode::PerRevolution),
+        970 => G::NoEffect(Group::Speed),
+        980 | 990 => G::NoEffect(Group::Return),
+        80 => G::NoEffect(Group::Other),
+        _ => return unfollowed(tenths),
+    })
+}
+
+fn unfollowed(tenths: u16) -> Option<G> {
+    Some(G::Unfollowed(match tenths {
+        50 | 51 | 330 | 331 | 382..=385 | 730 | 740 | 760 | 810..=890 => Group::Motion,
+        70 => Group::Other,
+        100 | 281 | 301 | 520 | 920..=923 => Group::Once,
+        410 | 411 | 420 | 421 => Group::Radius,
+        431 | 432 => Group::Length,
+        171 | 181 | 191 => Group::Plane,
+        960 => Group::Speed,
+        _ => return None,
+    }))
+}
+
+fn m(tenths: u16) -> Option<M> {
+    Some(match tenths {
+        0 => M::Stop { optional: false },
+        10 => M::Stop { optional: true },
+        20 | 300 => M::End,
+        30 => M::SpindleOn { clockwise: true },
+        40 => M::SpindleOn { clockwise: false },
+        50 => M::SpindleOff,
+        60 => M::ToolChange,
+        70 | 80 => M::CoolantOn,
+        90 => M::CoolantOff,
+        480 | 490 | 500 | 510 | 520 | 530 => M::NoEffect,
+        190 | 600..=730 | 980 | 990 | 1000..=1990 => M::Unfollowed,
+        _ => return None,
+    })
+}

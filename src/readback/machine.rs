@@ -1,0 +1,518 @@
+//! Executing blocks: modal state, checks that do not depend on the motion, order of execution.
+
+use super::block::{Block, bit};
+use super::codes::{G, M, Mode, Plane};
+use super::rules::{Frame, Rules};
+use super::{EventKind, Fault, FeedMode, Follow, MachineSetup, TraceEvent};
+
+/// Millimetres in an inch.
+pub(super) const INCH: f64 = 25.4;
+/// Words that are never left unused.
+const ALWAYS_USED: u32 = bit(b'N') | bit(b'F') | bit(b'S') | bit(b'T') | bit(b'O');
+
+/// Where messages and events of the block in hand go.
+pub(super) struct Out<'a, S: Follow> {
+    pub sink: &'a mut S,
+    pub line: u32,
+}
+
+impl<S: Follow> Out<'_, S> {
+    #[cold]
+    pub(super) fn fault(&mut self, message: impl Into<String>) {
+        self.sink.fault(Fault { line: self.line, message: message.into() });
+    }
+    #[cold]
+    pub(super) fn assumed(&mut self, message: impl Into<String>) {
+        self.sink.assumed(Fault { line: self.line, message: message.into() });
+    }
+    pub(super) fn event(&mut self, kind: EventKind) {
+        self.sink.event(TraceEvent { line: self.line, kind });
+    }
+}
+
+/// What a block asks for, group by group.
+#[derive(Debug, Default)]
+pub(super) struct Plan {
+    groups: u32,
+    m_groups: u8,
+    pub motion: Option<Mode>,
+    pub nurbs_end: bool,
+    pub once: Option<G>,
+    plane: Option<Plane>,
+    inch: Option<bool>,
+    incremental: Option<bool>,
+    arc_incremental: Option<bool>,
+    feed: Option<FeedMode>,
+    length: Option<bool>,
+    path: Option<G>,
+    offset: bool,
+    loose: bool,
+    stop: Option<M>,
+    spindle: Option<M>,
+    tool_change: bool,
+    /// A code that this reader does not follow: the block's words can't be judged.
+    pub unfollowed: bool,
+}
+
+/// Modal state of the control.
+#[derive(Debug)]
+pub(super) struct State {
+    /// X, Y, Z in mm and the rotary axis in degrees, as programmed.
+    pub position: [f64; 4],
+    /// Which of them are known.
+    pub known: [bool; 4],
+    pub motion: Mode,
+    pub plane: Plane,
+    pub plane_stated: bool,
+    pub inch: Option<bool>,
+    pub incremental: Option<bool>,
+    pub arc_incremental: bool,
+    pub feed_mode: Option<FeedMode>,
+    /// mm/min, mm/rev or 1/min.
+    pub feed: Option<f64>,
+    pub length: bool,
+    /// mm; infinite when the control may cut corners as it likes.
+    pub path_tolerance: f64,
+    pub path_stated: bool,
+    pub speed: f64,
+    pub direction: f64,
+    pub tool: u32,
+    pub prepared: Option<u32>,
+    pub ended: bool,
+    pub assumed: u8,
+}
+
+/// The executing half of the interpreter.
+#[derive(Debug)]
+pub(super) struct Machine<'a> {
+    pub rules: &'static Rules,
+    pub setup: &'a MachineSetup,
+    pub state: State,
+    pub nurbs: super::nurbs::Open,
+    frame: FrameState,
+}
+
+/// What of the program's frame has been seen.
+#[derive(Debug, Default)]
+struct FrameState {
+    blocks: u32,
+    percents: u32,
+    number: bool,
+    closed: bool,
+}
+
+impl<'a> Machine<'a> {
+    pub(super) fn new(rules: &'static Rules, setup: &'a MachineSetup) -> Self {
+        let state = State {
+            position: [0.0; 4],
+            known: [false; 4],
+            motion: if rules.starts_at_rapid { Mode::Rapid } else { Mode::None },
+            plane: Plane::Xy,
+            plane_stated: false,
+            inch: None,
+            incremental: None,
+            arc_incremental: true,
+            feed_mode: None,
+            feed: None,
+            length: false,
+            path_tolerance: if rules.blends { f64::INFINITY } else { 0.0 },
+            path_stated: !rules.blends,
+            speed: 0.0,
+            direction: 0.0,
+            tool: 0,
+            prepared: None,
+            ended: false,
+            assumed: 0,
+        };
+        Machine { rules, setup, state, nurbs: super::nurbs::Open::default(), frame: FrameState::default() }
+    }
+
+    /// mm in the unit in force.
+    pub(super) fn unit(&self) -> f64 {
+        if self.state.inch == Some(true) { INCH } else { 1.0 }
+    }
+
+    /// Unit name for messages.
+    pub(super) fn unit_name(&self) -> &'static str {
+        if self.state.inch == Some(true) { "in" } else { "mm" }
+    }
+
+    /// A length word in mm.
+    pub(super) fn length(&self, block: &Block, letter: u8) -> Option<f64> {
+        let value = block.get(letter)?;
+        if self.rules.least_increments && !block.point(letter) {
+            let least = if self.state.inch == Some(true) { 10_000.0 } else { 1000.0 };
+            return Some(value / least * self.unit());
+        }
+        Some(value * self.unit())
+    }
+
+    /// A rotary word in degrees.
+    pub(super) fn degrees(&self, block: &Block, letter: u8) -> Option<f64> {
+        let value = block.get(letter)?;
+        let least = self.rules.least_increments && !block.point(letter);
+        Some(if least { value / 1000.0 } else { value })
+    }
+
+    /// Says once what the program leaves to the control's settings.
+    pub(super) fn assume<S: Follow>(&mut self, which: u8, out: &mut Out<'_, S>, message: &str) {
+        if self.state.assumed & (1 << which) == 0 {
+            self.state.assumed |= 1 << which;
+            out.assumed(message);
+        }
+    }
+
+    /// Executes a block.
+    pub(super) fn execute<S: Follow>(&mut self, block: &Block, out: &mut Out<'_, S>) {
+        if self.framed(block, out) || block.is_empty() {
+            return;
+        }
+        if self.state.ended {
+            return out.fault("a block after the end of the program");
+        }
+        let Some(plan) = self.decode(block, out) else { return };
+        self.limits(block, out);
+        let mut used = ALWAYS_USED;
+        self.modal(block, &plan, &mut used, out);
+        if !plan.unfollowed {
+            self.motion(block, &plan, &mut used, out);
+            self.unused(block, used, out);
+        }
+        self.finish_block(&plan, out);
+    }
+
+    /// Percent signs and program numbers; `true` when the block is nothing else.
+    fn framed<S: Follow>(&mut self, block: &Block, out: &mut Out<'_, S>) -> bool {
+        if block.percent {
+            self.frame.percents += 1;
+            if self.frame.blocks > 0 && self.frame.percents == 1 && self.rules.frame != Frame::Free {
+                out.fault("'%' inside the program without one at its start");
+            }
+            self.frame.closed = self.frame.percents > 1;
+            return true;
+        }
+        if block.is_empty() {
+            return false;
+        }
+        if self.frame.closed {
+            out.fault("a block after the closing '%'");
+        }
+        let first = self.frame.blocks == 0;
+        self.frame.blocks = self.frame.blocks.saturating_add(1);
+        if first && self.rules.frame == Frame::PercentAndNumber {
+            self.program_number(block, out);
+        } else if block.has(b'O') {
+            out.fault("O words inside the program are not followed");
+            return true;
+        }
+        first && block.seen == bit(b'O') && block.g.len() + block.m.len() == 0
+    }
+
+    fn program_number<S: Follow>(&mut self, block: &Block, out: &mut Out<'_, S>) {
+        if self.frame.percents == 0 {
+            out.fault("the program does not start with '%'");
+        }
+        match block.get(b'O') {
+            None => out.fault("the program has no O number"),
+            Some(o) if !(1.0..=99_999_999.0).contains(&o) => {
+                out.fault(format!("program number O{o} is not in 1 to 99999999"));
+            }
+            Some(_) => self.frame.number = true,
+        }
+    }
+
+    /// What must be said when the text is over.
+    pub(super) fn end_of_text<S: Follow>(&mut self, out: &mut Out<'_, S>) {
+        self.nurbs_left_open(out);
+        let percents = self.frame.percents;
+        match self.rules.frame {
+            Frame::PercentAndNumber if percents < 2 => out.fault("the program does not end with '%'"),
+            Frame::PercentPairOrEnd if percents == 1 => out.fault("the file starts with '%' and does not end with one"),
+            Frame::PercentAndNumber | Frame::PercentPairOrEnd | Frame::Free => {}
+        }
+        let needs_end = self.rules.frame == Frame::PercentAndNumber || percents == 0;
+        if !self.state.ended && (needs_end && self.rules.frame != Frame::Free || self.state.direction != 0.0) {
+            out.fault("the program has no M2 or M30 at its end");
+        }
+    }
+
+    /// Gathers the codes by group; `None` when they contradict each other or are unknown.
+    fn decode<S: Follow>(&self, block: &Block, out: &mut Out<'_, S>) -> Option<Plan> {
+        let mut plan = Plan::default();
+        let mut good = true;
+        for code in block.g.iter() {
+            let Some(g) = (self.rules.g)(code) else {
+                out.fault(format!("unknown code G{}", tenths(code)));
+                good = false;
+                continue;
+            };
+            good &= self.gather_g(code, g, &mut plan, out);
+        }
+        for code in block.m.iter() {
+            let Some(m) = (self.rules.m)(code) else {
+                out.fault(format!("unknown code M{}", tenths(code)));
+                good = false;
+                continue;
+            };
+            good &= gather_m(code, m, &mut plan, out);
+        }
+        if block.m.len() > self.rules.most_m {
+            out.fault(format!("{} M codes in one block, the control takes {}", block.m.len(), self.rules.most_m));
+        }
+        good.then_some(plan)
+    }
+
+    fn gather_g<S: Follow>(&self, code: u16, g: G, plan: &mut Plan, out: &mut Out<'_, S>) -> bool {
+        let group = g.group();
+        let mask = 1u32 << (group as u32);
+        if plan.groups & mask != 0 {
+            out.fault(format!("two codes of one modal group ({}) in a block, the second is G{}", group.name(), tenths(code)));
+            return false;
+        }
+        plan.groups |= mask;
+        match g {
+            G::Motion(mode) => plan.motion = Some(mode),
+            G::NurbsEnd => plan.nurbs_end = true,
+            G::Dwell | G::MachineCoordinates | G::Reference => plan.once = Some(g),
+            G::Plane(plane) => plan.plane = Some(plane),
+            G::Units { inch } => plan.inch = Some(inch),
+            G::Distance { incremental } => plan.incremental = Some(incremental),
+            G::ArcDistance { incremental } => plan.arc_incremental = Some(incremental),
+            G::Feed(mode) => plan.feed = Some(mode),
+            G::LengthOn => plan.length = Some(true),
+            G::LengthOff => plan.length = Some(false),
+            G::ExactPath | G::Blend => plan.path = Some(g),
+            G::WorkOffset => plan.offset = true,
+            G::RadiusOff => {}
+            G::NoEffect(_) => plan.loose = true,
+            G::Unfollowed(_) => {
+                plan.unfollowed = true;
+                out.fault(format!("G{} is not followed by this reader", tenths(code)));
+            }
+        }
+        true
+    }
+
+    /// Ranges of N, T and S.
+    fn limits<S: Follow>(&self, block: &Block, out: &mut Out<'_, S>) {
+        for (letter, largest) in [(b'N', self.rules.largest_n), (b'T', self.rules.largest_t), (b'S', 1e6)] {
+            let Some(value) = block.get(letter) else { continue };
+            if !(0.0..=largest).contains(&value) {
+                out.fault(format!("{}{value} is not in 0 to {largest}", char::from(letter)));
+            }
+            if letter != b'S' && value.fract() != 0.0 {
+                out.fault(format!("{}{value} is not an integer", char::from(letter)));
+            }
+        }
+    }
+
+    /// Everything that comes before the motion, in the controls' order of execution.
+    fn modal<S: Follow>(&mut self, block: &Block, plan: &Plan, used: &mut u32, out: &mut Out<'_, S>) {
+        self.units(plan.inch);
+        self.feed_mode(plan.feed);
+        self.feed_word(block, out);
+        if let Some(speed) = block.get(b'S') {
+            self.state.speed = speed;
+        }
+        self.tool(block, plan, out);
+        self.spindle(plan.spindle);
+        self.dwell(block, plan, used, out);
+        self.state.plane_stated |= plan.plane.is_some();
+        self.state.plane = plan.plane.unwrap_or(self.state.plane);
+        self.tool_length(block, plan, used, out);
+        if plan.offset {
+            self.state.known = [false; 4];
+            *used |= if self.rules.least_increments { bit(b'P') } else { 0 };
+        }
+        self.path(block, plan.path, used, out);
+        self.state.incremental = plan.incremental.or(self.state.incremental);
+        self.state.arc_incremental = plan.arc_incremental.unwrap_or(self.state.arc_incremental);
+        *used |= if plan.loose { bit(b'P') | bit(b'Q') | bit(b'R') } else { 0 };
+    }
+
+    fn units(&mut self, inch: Option<bool>) {
+        let Some(inch) = inch else { return };
+        if self.state.inch.is_some_and(|now| now != inch) {
+            self.state.feed = None;
+        }
+        self.state.inch = Some(inch);
+    }
+
+    /// A feed of one mode means nothing in another: it is gone when the mode changes. LinuxCNC forgets it at
+    /// every G94 and G95.
+    fn feed_mode(&mut self, mode: Option<FeedMode>) {
+        let Some(mode) = mode else { return };
+        if self.state.feed_mode.is_some_and(|now| now != mode) || self.rules.blends {
+            self.state.feed = None;
+        }
+        self.state.feed_mode = Some(mode);
+    }
+
+    fn feed_word<S: Follow>(&mut self, block: &Block, out: &mut Out<'_, S>) {
+        let Some(value) = block.get(b'F') else { return };
+        if value < 0.0 {
+            return out.fault(format!("negative feed F{value}"));
+        }
+        let unpointed = self.rules.least_increments && !block.point(b'F');
+        let inch = self.state.inch == Some(true);
+        self.state.feed = Some(match self.state.feed_mode {
+            Some(FeedMode::InverseTime) => value,
+            Some(FeedMode::PerRevolution) if unpointed => value * if inch { 0.0001 * INCH } else { 0.01 },
+            None | Some(FeedMode::PerMinute) if unpointed && inch => value * 0.01 * INCH,
+            _ => value * self.unit(),
+        });
+    }
+
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+    fn tool<S: Follow>(&mut self, block: &Block, plan: &Plan, out: &mut Out<'_, S>) {
+        if let Some(t) = block.get(b'T').filter(|t| (0.0..=self.rules.largest_t).contains(t)) {
+            let tool = t as u32;
+            self.state.prepared = Some(tool);
+            if self.setup.tools.as_ref().is_some_and(|known| tool != 0 && !known.contains(&tool)) {
+                out.fault(format!("T{tool} is not in the tool table"));
+            }
+            if !self.rules.tool_change {
+                self.state.tool = tool;
+            }
+        }
+        if plan.tool_change {
+            self.change_tool(out);
+        }
+    }
+
+    /// After a change the machine may stand anywhere, and stands still.
+    fn change_tool<S: Follow>(&mut self, out: &mut Out<'_, S>) {
+        let Some(tool) = self.state.prepared else { return out.fault("M6 without a T word before it") };
+        self.state.tool = tool;
+        self.state.direction = 0.0;
+        self.state.length = false;
+        self.state.known = [false, false, false, self.state.known[3]];
+        out.event(EventKind::ToolChange(tool));
+    }
+
+    fn spindle(&mut self, spindle: Option<M>) {
+        match spindle {
+            Some(M::SpindleOn { clockwise }) => self.state.direction = if clockwise { 1.0 } else { -1.0 },
+            Some(M::SpindleOff) => self.state.direction = 0.0,
+            _ => {}
+        }
+    }
+
+    fn dwell<S: Follow>(&mut self, block: &Block, plan: &Plan, used: &mut u32, out: &mut Out<'_, S>) {
+        if plan.once != Some(G::Dwell) {
+            return;
+        }
+        let seconds = match (block.get(b'P'), block.get(b'X')) {
+            (Some(p), _) => {
+                *used |= bit(b'P');
+                Some(p * self.rules.dwell_p)
+            }
+            (None, Some(x)) if self.rules.dwell_x => {
+                *used |= bit(b'X');
+                Some(if block.point(b'X') { x } else { x / 1000.0 })
+            }
+            _ => None,
+        };
+        match seconds {
+            None => out.fault("G4 without the dwell's time"),
+            Some(s) if s < 0.0 => out.fault(format!("G4 with the negative time {s} s")),
+            Some(s) => out.event(EventKind::Dwell(s)),
+        }
+    }
+
+    fn tool_length<S: Follow>(&mut self, block: &Block, plan: &Plan, used: &mut u32, out: &mut Out<'_, S>) {
+        let Some(on) = plan.length else { return };
+        self.state.known[2] = false;
+        self.state.length = on;
+        if !on {
+            return;
+        }
+        *used |= bit(b'H');
+        let tool = f64::from(self.state.tool);
+        match block.get(b'H') {
+            None if self.rules.least_increments => out.fault("G43 without an H word"),
+            Some(h) if h.fract() != 0.0 || h < 0.0 => out.fault(format!("G43 with H{h}")),
+            Some(h) if (h - tool).abs() > 0.5 => {
+                out.assumed(format!("G43 H{h} takes in the length of another tool than T{tool} in the spindle"));
+            }
+            _ => {}
+        }
+    }
+
+    /// G64 P: blending cuts a corner by up to P, and the naive-cam detector drops points up to Q (P when it is
+    /// not given) off the line; the two add up.
+    fn path<S: Follow>(&mut self, block: &Block, path: Option<G>, used: &mut u32, out: &mut Out<'_, S>) {
+        let Some(path) = path else { return };
+        self.state.path_stated = true;
+        if path == G::ExactPath {
+            self.state.path_tolerance = 0.0;
+            return;
+        }
+        *used |= bit(b'P') | bit(b'Q');
+        let naive = self.length(block, b'Q');
+        self.state.path_tolerance = match self.length(block, b'P') {
+            Some(p) if p < 0.0 || naive.is_some_and(|q| q < 0.0) => {
+                out.fault("G64 with a negative tolerance");
+                f64::INFINITY
+            }
+            Some(p) if p > 0.0 => p + naive.unwrap_or(p),
+            _ => f64::INFINITY,
+        };
+    }
+
+    /// Words that no code of the block takes.
+    fn unused<S: Follow>(&self, block: &Block, used: u32, out: &mut Out<'_, S>) {
+        let left = block.seen & !used;
+        if left == 0 {
+            return;
+        }
+        for letter in (b'A'..=b'Z').filter(|&l| left & bit(l) != 0) {
+            let value = block.get(letter).unwrap_or_default();
+            let name = char::from(letter);
+            if matches!(letter, b'A'..=b'C' | b'U'..=b'W') && self.setup.rotary_letter() != Some(letter) {
+                out.fault(format!("{name}{value}: the machine has no axis {name}"));
+            } else {
+                out.fault(format!("{name}{value}: {}", self.rules.unused));
+            }
+        }
+    }
+
+    /// Stops and ends come last.
+    fn finish_block<S: Follow>(&mut self, plan: &Plan, out: &mut Out<'_, S>) {
+        match plan.stop {
+            Some(M::Stop { optional }) => out.event(EventKind::Stop { optional }),
+            Some(M::End) => {
+                self.state.ended = true;
+                self.state.direction = 0.0;
+                out.event(EventKind::End);
+            }
+            _ => {}
+        }
+    }
+}
+
+fn gather_m<S: Follow>(code: u16, m: M, plan: &mut Plan, out: &mut Out<'_, S>) -> bool {
+    let mask = 1u8 << m.group();
+    let several_are_fine = matches!(m, M::CoolantOn | M::NoEffect | M::Unfollowed);
+    if plan.m_groups & mask != 0 && !several_are_fine {
+        out.fault(format!("two M codes of one modal group in a block, the second is M{}", tenths(code)));
+        return false;
+    }
+    plan.m_groups |= mask;
+    match m {
+        M::Stop { .. } | M::End => plan.stop = Some(m),
+        M::SpindleOn { .. } | M::SpindleOff => plan.spindle = Some(m),
+        M::ToolChange => plan.tool_change = true,
+        M::CoolantOn | M::CoolantOff | M::NoEffect => {}
+        M::Unfollowed => {
+            plan.unfollowed = true;
+            out.fault(format!("M{} is not followed by this reader", tenths(code)));
+        }
+    }
+    true
+}
+
+/// A code in tenths as it is written: 52 is `5.2`, 10 is `1`.
+pub(super) fn tenths(code: u16) -> String {
+    if code % 10 == 0 { format!("{}", code / 10) } else { format!("{}.{}", code / 10, code % 10) }
+}

@@ -1,0 +1,330 @@
+//! Motions: rapids, lines, spirals of a rotary table, and what they need.
+
+use super::block::{Block, bit};
+use super::codes::{G, Mode, Plane};
+use super::machine::{Machine, Out, Plan};
+use super::{EventKind, FeedMode, Follow, TraceMove, TracePath};
+use crate::geom::Point2;
+use crate::math::DEG;
+
+/// Index of the rotary axis in a position.
+pub(super) const ROTARY: usize = 3;
+
+/// Where a motion goes.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Target {
+    /// X, Y, Z in mm, rotary in degrees.
+    pub to: [f64; 4],
+    /// Axes that have a word in the block.
+    pub moved: [bool; 4],
+}
+
+impl Target {
+    fn any(&self) -> bool {
+        self.moved.iter().any(|&m| m)
+    }
+}
+
+impl Machine<'_> {
+    /// The motion of a block, if it has one.
+    pub(super) fn motion<S: Follow>(
+        &mut self,
+        block: &Block,
+        plan: &Plan,
+        used: &mut u32,
+        out: &mut Out<'_, S>,
+    ) {
+        if plan.once == Some(G::Reference) {
+            return self.reference(block, used, out);
+        }
+        if self.nurbs_block(block, plan, used, out) {
+            return;
+        }
+        let axes = self.axis_words() & block.seen & !*used;
+        if let Some(mode) = plan.motion {
+            self.state.motion = mode;
+        }
+        if plan.once == Some(G::Dwell) && axes != 0 {
+            return out.fault("axis words in a dwell");
+        }
+        if axes == 0 && !matches!((plan.motion, self.state.motion), (Some(_), Mode::Arc { .. })) {
+            let arc_words = bit(b'I') | bit(b'J') | bit(b'K') | bit(b'R');
+            let modal_arc = matches!(self.state.motion, Mode::Arc { .. }) && block.seen & arc_words != 0;
+            if !modal_arc || plan.once.is_some() {
+                return self.no_axis_words(plan, out);
+            }
+        }
+        self.moving(block, plan, axes, used, out);
+    }
+
+    /// A motion code without axis words moves nothing; LinuxCNC calls it an error.
+    fn no_axis_words<S: Follow>(&self, plan: &Plan, out: &mut Out<'_, S>) {
+        if self.rules.blends && matches!(plan.motion, Some(Mode::Rapid | Mode::Linear)) {
+            out.fault("all axes missing with motion code");
+        }
+    }
+
+    fn moving<S: Follow>(
+        &mut self,
+        block: &Block,
+        plan: &Plan,
+        axes: u32,
+        used: &mut u32,
+        out: &mut Out<'_, S>,
+    ) {
+        let machine_coordinates = plan.once == Some(G::MachineCoordinates);
+        if machine_coordinates {
+            *used |= axes;
+            return self.machine_move(block, out);
+        }
+        self.state_assumptions(out);
+        match self.state.motion {
+            Mode::None => {
+                *used |= axes;
+                out.fault("axis words without a motion code that uses them");
+            }
+            Mode::Rapid | Mode::Linear => self.straight(block, axes, used, out),
+            Mode::Arc { clockwise } => self.arc(block, clockwise, used, out),
+            // Blocks of an open curve never come here.
+            Mode::NurbsPoints | Mode::NurbsKnots => {}
+        }
+    }
+
+    /// What a program must state before its first move, or leave to the control's settings.
+    fn state_assumptions<S: Follow>(&mut self, out: &mut Out<'_, S>) {
+        if self.state.inch.is_none() {
+            self.assume(0, out, "neither G20 nor G21 before the first move: the unit is left to the control's setting");
+        }
+        if self.state.incremental.is_none() {
+            self.assume(1, out, "neither G90 nor G91 before the first move: it is left to the control's setting");
+        }
+    }
+
+    /// Letters of the configured axes.
+    pub(super) fn axis_words(&self) -> u32 {
+        bit(b'X') | bit(b'Y') | bit(b'Z') | self.setup.rotary_letter().map_or(0, bit)
+    }
+
+    /// End point of the block from its axis words.
+    pub(super) fn target<S: Follow>(&self, block: &Block, out: &mut Out<'_, S>) -> Target {
+        let incremental = self.state.incremental == Some(true);
+        let mut target = Target { to: self.state.position, moved: [false; 4] };
+        let rotary = self.setup.rotary_letter().and_then(|l| self.degrees(block, l));
+        let words = [self.length(block, b'X'), self.length(block, b'Y'), self.length(block, b'Z'), rotary];
+        for (axis, word) in words.into_iter().enumerate() {
+            let (Some(value), Some(slot)) = (word, target.to.get_mut(axis)) else { continue };
+            if incremental && !self.state.known[axis] {
+                out.fault("an incremental move from a position that is not known");
+            }
+            *slot = if incremental { *slot + value } else { value };
+            target.moved[axis] = true;
+        }
+        target
+    }
+
+    fn straight<S: Follow>(&mut self, block: &Block, axes: u32, used: &mut u32, out: &mut Out<'_, S>) {
+        *used |= axes;
+        let target = self.target(block, out);
+        let rapid = self.state.motion == Mode::Rapid;
+        if !rapid && !self.feed_is_there(block, out) {
+            return self.arrive(&target);
+        }
+        let from = self.departure(&target);
+        match self.straight_path(&from, &target, out) {
+            Some(path) => self.emit(path, from, &target, rapid, out),
+            None => self.arrive(&target),
+        }
+    }
+
+    /// Where the move starts; an axis that is not known yet is taken to stand where it goes.
+    pub(super) fn departure(&self, target: &Target) -> [f64; 4] {
+        let mut from = self.state.position;
+        for axis in 0..4 {
+            if target.moved[axis] && !self.state.known[axis] {
+                from[axis] = target.to[axis];
+            }
+        }
+        from
+    }
+
+    /// A straight machine move as the part sees it: a line, or a spiral when the table turns under it.
+    fn straight_path<S: Follow>(
+        &self,
+        from: &[f64; 4],
+        target: &Target,
+        out: &mut Out<'_, S>,
+    ) -> Option<TracePath> {
+        let to = &target.to;
+        if self.setup.rotary.is_none() || (to[ROTARY] - from[ROTARY]).abs() == 0.0 {
+            let from = self.in_part(from[0], from[1], from[ROTARY]);
+            return Some(TracePath::Line { from, to: self.in_part(to[0], to[1], to[ROTARY]) });
+        }
+        if from[1] != 0.0 || to[1] != 0.0 {
+            let unit = self.unit();
+            let letter = self.setup.rotary_letter().map_or('C', char::from);
+            out.fault(format!(
+                "{letter} moves while Y is {} to {} {}: the tool must be on the table's X axis",
+                from[1] / unit,
+                to[1] / unit,
+                self.unit_name()
+            ));
+            return None;
+        }
+        let angle = (self.table_angle(from[ROTARY]), self.table_angle(to[ROTARY]));
+        Some(TracePath::Spiral { radius: (from[0], to[0]), angle })
+    }
+
+    /// Angle of the machine's X axis in the part at this rotary position, radians.
+    pub(super) fn table_angle(&self, degrees: f64) -> f64 {
+        let reversed = self.setup.rotary.is_some_and(|r| r.reversed);
+        if reversed { -degrees * DEG } else { degrees * DEG }
+    }
+
+    /// A machine point in the part's frame.
+    pub(super) fn in_part(&self, x: f64, y: f64, degrees: f64) -> Point2 {
+        if self.setup.rotary.is_none() || degrees == 0.0 {
+            return Point2::new(x, y);
+        }
+        let (s, c) = crate::math::sin_cos(self.table_angle(degrees));
+        Point2::new(c * x - s * y, s * x + c * y)
+    }
+
+    /// Whether a cutting block has its feed; says what is missing.
+    pub(super) fn feed_is_there<S: Follow>(&mut self, block: &Block, out: &mut Out<'_, S>) -> bool {
+        if self.state.feed_mode.is_none() {
+            self.assume(2, out, "none of G93, G94, G95 before the first cut: the feed mode is left to the control's setting");
+        }
+        if !self.state.path_stated {
+            self.assume(3, out, "neither G61 nor G64 P before the first cut: how far corners are cut is left to the control");
+        }
+        let mode = self.state.feed_mode.unwrap_or(FeedMode::PerMinute);
+        if mode == FeedMode::InverseTime && !block.has(b'F') {
+            out.fault(format!("{}: F word missing with inverse time motion", self.rules.no_feed));
+            return false;
+        }
+        if self.state.feed.is_none_or(|f| f <= 0.0) {
+            out.fault(self.rules.no_feed);
+            return false;
+        }
+        if mode == FeedMode::PerRevolution && self.spindle_speed() == 0.0 {
+            out.fault("feed per revolution with the spindle standing");
+            return false;
+        }
+        true
+    }
+
+    pub(super) fn spindle_speed(&self) -> f64 {
+        self.state.direction * self.state.speed
+    }
+
+    /// Hands the move on and stands at its end.
+    pub(super) fn emit<S: Follow>(
+        &mut self,
+        path: TracePath,
+        from: [f64; 4],
+        target: &Target,
+        rapid: bool,
+        out: &mut Out<'_, S>,
+    ) {
+        let z = (from[2], target.to[2]);
+        let feed = if rapid { None } else { self.path_feed(&path, &from, target) };
+        let known = self.known_before(target);
+        let cut = TraceMove {
+            path,
+            z,
+            rapid,
+            feed,
+            feed_mode: self.state.feed_mode.unwrap_or(FeedMode::PerMinute),
+            spindle: self.spindle_speed(),
+            tool: self.state.tool,
+            known,
+            length_offset: self.state.length,
+            path_tolerance: self.state.path_tolerance,
+        };
+        self.arrive(target);
+        out.event(EventKind::Move(cut));
+    }
+
+    /// X and Y of the part are known when the machine's are, and the table's angle if it turns.
+    fn known_before(&self, target: &Target) -> [bool; 3] {
+        let known = &self.state.known;
+        let table = known[ROTARY] || !target.moved[ROTARY];
+        [known[0] && table, known[1] && table, known[2]]
+    }
+
+    /// Feed along the path in the part, mm/min.
+    fn path_feed(&self, path: &TracePath, from: &[f64; 4], target: &Target) -> Option<f64> {
+        let feed = self.state.feed?;
+        let per_minute = match self.state.feed_mode.unwrap_or(FeedMode::PerMinute) {
+            FeedMode::InverseTime => return Some(feed * super::length::along(path, target.to[2] - from[2])),
+            FeedMode::PerRevolution => feed * self.state.speed,
+            FeedMode::PerMinute => feed,
+        };
+        let TracePath::Spiral { .. } = path else { return Some(per_minute) };
+        let (dx, dz, turn) = (target.to[0] - from[0], target.to[2] - from[2], target.to[3] - from[3]);
+        let linear = crate::math::hypot(dx, dz);
+        // LinuxCNC: F is the speed of the linear axes if one of them moves, else degrees a minute. Fanuc: 1 deg
+        // counts as 1 mm.
+        let reference = match (self.rules.blends, linear > 0.0) {
+            (true, true) => linear,
+            (true, false) => turn.abs(),
+            (false, _) => crate::math::hypot(linear, turn),
+        };
+        Some(per_minute * super::length::along(path, dz) / reference)
+    }
+
+    /// The control now stands at the target.
+    pub(super) fn arrive(&mut self, target: &Target) {
+        self.state.position = target.to;
+        for axis in 0..4 {
+            self.state.known[axis] |= target.moved[axis];
+        }
+    }
+
+    /// G53: a move in machine coordinates leaves the part's frame.
+    fn machine_move<S: Follow>(&mut self, block: &Block, out: &mut Out<'_, S>) {
+        if !matches!(self.state.motion, Mode::Rapid | Mode::Linear) {
+            out.fault("G53 without G0 or G1");
+        }
+        if self.state.incremental == Some(true) {
+            out.fault("G53 with G91");
+        }
+        let target = self.target(block, out);
+        self.forget(&target);
+    }
+
+    /// G28/G30: over the given point to the machine's reference point.
+    fn reference<S: Follow>(&mut self, block: &Block, used: &mut u32, out: &mut Out<'_, S>) {
+        *used |= self.axis_words();
+        let target = self.target(block, out);
+        if !target.any() && self.rules.least_increments {
+            return out.fault("G28 without an axis word");
+        }
+        let from = self.departure(&target);
+        if target.to != from
+            && let Some(path) = self.straight_path(&from, &target, out)
+        {
+            self.emit(path, from, &target, true, out);
+        }
+        let all = Target { moved: if target.any() { target.moved } else { [true; 4] }, ..target };
+        self.forget(&all);
+    }
+
+    fn forget(&mut self, target: &Target) {
+        for axis in 0..4 {
+            self.state.known[axis] &= !target.moved[axis];
+        }
+    }
+
+    /// Whether the working plane is XY; says what is wrong when it is not.
+    pub(super) fn in_xy_plane<S: Follow>(&mut self, what: &str, out: &mut Out<'_, S>) -> bool {
+        if !self.state.plane_stated {
+            self.assume(4, out, "no plane (G17) before the first arc: it is left to the control's setting");
+        }
+        let fine = self.state.plane == Plane::Xy;
+        if !fine {
+            out.fault(format!("{what} outside the XY plane (G17)"));
+        }
+        fine
+    }
+}
