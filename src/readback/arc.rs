@@ -17,7 +17,13 @@ enum Refusal {
 
 impl Machine<'_> {
     /// G2 and G3.
-    pub(super) fn arc<S: Follow>(&mut self, block: &Block, clockwise: bool, used: &mut u32, out: &mut Out<'_, S>) {
+    pub(super) fn arc<S: Follow>(
+        &mut self,
+        block: &Block,
+        clockwise: bool,
+        used: &mut u32,
+        out: &mut Out<'_, S>,
+    ) {
         let in_plane = bit(b'X') | bit(b'Y');
         *used |= (self.axis_words() | bit(b'I') | bit(b'J')) & block.seen;
         if !self.in_xy_plane("an arc", out) {
@@ -26,7 +32,8 @@ impl Machine<'_> {
         }
         let target = self.target(block, out);
         if self.rules.arc_needs_end && block.seen & in_plane == 0 {
-            let code = if block.has(b'Z') { "error:32, no axis words in plane" } else { "error:26, no axis words" };
+            let code =
+                if block.has(b'Z') { "error:32, no axis words in plane" } else { "error:26, no axis words" };
             out.fault(format!("{code}: an arc needs X or Y"));
             return self.arrive(&target);
         }
@@ -90,7 +97,13 @@ impl Machine<'_> {
     }
 
     /// The centre of an arc of this radius: the shorter arc when it is positive, the longer when negative.
-    fn centre_by_radius(&self, start: Point2, end: Point2, radius: f64, clockwise: bool) -> Result<Point2, Refusal> {
+    fn centre_by_radius(
+        &self,
+        start: Point2,
+        end: Point2,
+        radius: f64,
+        clockwise: bool,
+    ) -> Result<Point2, Refusal> {
         let chord = end - start;
         let length = chord.norm();
         let u = self.unit();
@@ -115,7 +128,11 @@ impl Machine<'_> {
         let (r1, r2) = ((start - centre).norm(), (end - centre).norm());
         let u = self.unit();
         if r1.min(r2) <= self.rules.smallest_radius {
-            return Err(Refusal::Said(format!("an arc of zero radius ({:.6} {})", r1.min(r2) / u, self.unit_name())));
+            return Err(Refusal::Said(format!(
+                "an arc of zero radius ({:.6} {})",
+                r1.min(r2) / u,
+                self.unit_name()
+            )));
         }
         let difference = (r1 - r2).abs();
         if difference <= (self.rules.largest_difference)(r1.max(r2)) {

@@ -166,7 +166,11 @@ fn slash(block: &mut Block, at: usize, fault: &mut dyn FnMut(String)) -> usize {
 fn percent(line: &[u8], at: usize, rules: &Rules, block: &mut Block, fault: &mut dyn FnMut(String)) -> usize {
     let alone = line.iter().enumerate().all(|(i, c)| i == at || c.is_ascii_whitespace());
     if !alone || !rules.percent_allowed {
-        fault(format!("'%' in column {} {}", at + 1, if alone { "is not a command" } else { "is not alone on its line" }));
+        fault(format!(
+            "'%' in column {} {}",
+            at + 1,
+            if alone { "is not a command" } else { "is not alone on its line" }
+        ));
     }
     block.percent |= alone;
     line.len()
@@ -199,7 +203,9 @@ fn bad_number(letter: u8, error: NumberError, line: &[u8], at: usize) -> String 
             format!("{letter} is followed by an expression, which this reader does not follow")
         }
         NumberError::NoDigits => format!("{letter} in column {} is not followed by a number", at + 1),
-        NumberError::SecondPoint => format!("the number of {letter} in column {} has two decimal points", at + 1),
+        NumberError::SecondPoint => {
+            format!("the number of {letter} in column {} has two decimal points", at + 1)
+        }
         NumberError::TooLong => format!("the number of {letter} in column {} has too many digits", at + 1),
     }
 }
@@ -209,7 +215,11 @@ fn store(letter: u8, value: Number, rules: &Rules, block: &mut Block, fault: &mu
         return store_code(letter, value, block, fault);
     }
     if rules.whole_numbers.contains(&letter) && value.point {
-        fault(format!("{}{} carries a decimal point; the control wants an integer", char::from(letter), value.value));
+        fault(format!(
+            "{}{} carries a decimal point; the control wants an integer",
+            char::from(letter),
+            value.value
+        ));
     }
     if !block.put(letter, value) {
         fault(format!("multiple {} words in one block", char::from(letter)));

@@ -10,9 +10,7 @@ pub(super) const RULES: Rules = Rules {
     semicolon_comment: false,
     comment_may_stay_open: false,
     comment_may_nest: false,
-    comment_character: |c| {
-        c.is_ascii_uppercase() || c.is_ascii_digit() || b" .,=_-+/*#:[]<>&'".contains(&c)
-    },
+    comment_character: |c| c.is_ascii_uppercase() || c.is_ascii_digit() || b" .,=_-+/*#:[]<>&'".contains(&c),
     comment_complaint: "the control's character set has no",
     active_comments: &[],
     percent_allowed: true,

@@ -43,7 +43,9 @@ fn polar_length(r0: f64, r1: f64, sweep: f64) -> f64 {
 #[allow(clippy::cast_precision_loss)]
 fn nurbs_length(order: usize, points: &[Point2], weights: &[f64], knots: &[f64]) -> f64 {
     let chords = 256 * points.len().min(4096);
-    let (Some(&u0), Some(&u1)) = (knots.get(order.saturating_sub(1)), knots.get(points.len())) else { return 0.0 };
+    let (Some(&u0), Some(&u1)) = (knots.get(order.saturating_sub(1)), knots.get(points.len())) else {
+        return 0.0;
+    };
     let at = |i: usize| {
         let u = u0 + (u1 - u0) * i as f64 / chords as f64;
         super::nurbs::point(order, points, weights, knots, u)

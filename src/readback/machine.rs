@@ -227,11 +227,14 @@ impl<'a> Machine<'a> {
         let percents = self.frame.percents;
         match self.rules.frame {
             Frame::PercentAndNumber if percents < 2 => out.fault("the program does not end with '%'"),
-            Frame::PercentPairOrEnd if percents == 1 => out.fault("the file starts with '%' and does not end with one"),
+            Frame::PercentPairOrEnd if percents == 1 => {
+                out.fault("the file starts with '%' and does not end with one")
+            }
             Frame::PercentAndNumber | Frame::PercentPairOrEnd | Frame::Free => {}
         }
         let needs_end = self.rules.frame == Frame::PercentAndNumber || percents == 0;
-        if !self.state.ended && (needs_end && self.rules.frame != Frame::Free || self.state.direction != 0.0) {
+        if !self.state.ended && (needs_end && self.rules.frame != Frame::Free || self.state.direction != 0.0)
+        {
             out.fault("the program has no M2 or M30 at its end");
         }
     }
@@ -257,7 +260,11 @@ impl<'a> Machine<'a> {
             good &= gather_m(code, m, &mut plan, out);
         }
         if block.m.len() > self.rules.most_m {
-            out.fault(format!("{} M codes in one block, the control takes {}", block.m.len(), self.rules.most_m));
+            out.fault(format!(
+                "{} M codes in one block, the control takes {}",
+                block.m.len(),
+                self.rules.most_m
+            ));
         }
         good.then_some(plan)
     }
@@ -266,7 +273,11 @@ impl<'a> Machine<'a> {
         let group = g.group();
         let mask = 1u32 << (group as u32);
         if plan.groups & mask != 0 {
-            out.fault(format!("two codes of one modal group ({}) in a block, the second is G{}", group.name(), tenths(code)));
+            out.fault(format!(
+                "two codes of one modal group ({}) in a block, the second is G{}",
+                group.name(),
+                tenths(code)
+            ));
             return false;
         }
         plan.groups |= mask;
@@ -433,7 +444,9 @@ impl<'a> Machine<'a> {
             None if self.rules.least_increments => out.fault("G43 without an H word"),
             Some(h) if h.fract() != 0.0 || h < 0.0 => out.fault(format!("G43 with H{h}")),
             Some(h) if (h - tool).abs() > 0.5 => {
-                out.assumed(format!("G43 H{h} takes in the length of another tool than T{tool} in the spindle"));
+                out.assumed(format!(
+                    "G43 H{h} takes in the length of another tool than T{tool} in the spindle"
+                ));
             }
             _ => {}
         }

@@ -49,7 +49,9 @@ pub struct Rotary {
 
 impl MachineSetup {
     fn rotary_letter(&self) -> Option<u8> {
-        self.rotary.and_then(|r| u8::try_from(r.letter).ok()).filter(|l| matches!(l, b'A'..=b'C' | b'U'..=b'W'))
+        self.rotary
+            .and_then(|r| u8::try_from(r.letter).ok())
+            .filter(|l| matches!(l, b'A'..=b'C' | b'U'..=b'W'))
     }
 }
 
@@ -69,7 +71,12 @@ pub struct UnknownControl(pub String);
 
 impl core::fmt::Display for UnknownControl {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        write!(f, "no interpreter for the control '{}'; there are {}", self.0, CONTROLS.map(|c| c.name).join(", "))
+        write!(
+            f,
+            "no interpreter for the control '{}'; there are {}",
+            self.0,
+            CONTROLS.map(|c| c.name).join(", ")
+        )
     }
 }
 
@@ -145,7 +152,11 @@ impl<'a> Interpreter<'a> {
     /// When no control has this name.
     pub fn new(control: &str, setup: &'a MachineSetup) -> Result<Self, UnknownControl> {
         let rules = find(control).ok_or_else(|| UnknownControl(control.to_owned()))?;
-        Ok(Interpreter { machine: machine::Machine::new(rules, setup), block: block::Block::default(), line: 0 })
+        Ok(Interpreter {
+            machine: machine::Machine::new(rules, setup),
+            block: block::Block::default(),
+            line: 0,
+        })
     }
 
     /// Executes a line, with or without its line end.

@@ -93,10 +93,18 @@ impl Machine<'_> {
     /// What a program must state before its first move, or leave to the control's settings.
     fn state_assumptions<S: Follow>(&mut self, out: &mut Out<'_, S>) {
         if self.state.inch.is_none() {
-            self.assume(0, out, "neither G20 nor G21 before the first move: the unit is left to the control's setting");
+            self.assume(
+                0,
+                out,
+                "neither G20 nor G21 before the first move: the unit is left to the control's setting",
+            );
         }
         if self.state.incremental.is_none() {
-            self.assume(1, out, "neither G90 nor G91 before the first move: it is left to the control's setting");
+            self.assume(
+                1,
+                out,
+                "neither G90 nor G91 before the first move: it is left to the control's setting",
+            );
         }
     }
 
@@ -192,10 +200,18 @@ impl Machine<'_> {
     /// Whether a cutting block has its feed; says what is missing.
     pub(super) fn feed_is_there<S: Follow>(&mut self, block: &Block, out: &mut Out<'_, S>) -> bool {
         if self.state.feed_mode.is_none() {
-            self.assume(2, out, "none of G93, G94, G95 before the first cut: the feed mode is left to the control's setting");
+            self.assume(
+                2,
+                out,
+                "none of G93, G94, G95 before the first cut: the feed mode is left to the control's setting",
+            );
         }
         if !self.state.path_stated {
-            self.assume(3, out, "neither G61 nor G64 P before the first cut: how far corners are cut is left to the control");
+            self.assume(
+                3,
+                out,
+                "neither G61 nor G64 P before the first cut: how far corners are cut is left to the control",
+            );
         }
         let mode = self.state.feed_mode.unwrap_or(FeedMode::PerMinute);
         if mode == FeedMode::InverseTime && !block.has(b'F') {

@@ -2,8 +2,8 @@
 
 /// Powers of ten that are exact in 64-bit floats.
 const POW10: [f64; 23] = [
-    1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19,
-    1e20, 1e21, 1e22,
+    1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18,
+    1e19, 1e20, 1e21, 1e22,
 ];
 
 /// Most significant digits that fit a 53-bit mantissa whatever they are.
@@ -90,7 +90,9 @@ mod tests {
     #[test]
     #[allow(clippy::float_cmp)]
     fn the_nearest_float_of_the_decimal_is_read() {
-        for text in ["0.1", "-245.123", "12.34567", "+.5", "5.", "00012.0400", "123456789.012345678", "-0.00001"] {
+        for text in
+            ["0.1", "-245.123", "12.34567", "+.5", "5.", "00012.0400", "123456789.012345678", "-0.00001"]
+        {
             assert_eq!(value(text), text.trim_start_matches('+').parse::<f64>().expect("std"), "{text}");
         }
         assert_eq!(value("+0. 12 34"), 0.1234);

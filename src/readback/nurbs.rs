@@ -159,7 +159,8 @@ impl Machine<'_> {
         self.state.motion = Mode::None;
         let (n, order) = (curve.points.len(), curve.order);
         if n < order {
-            return out.fault(format!("G5.3: {n} control points, the order L {order} needs {order} at least"));
+            return out
+                .fault(format!("G5.3: {n} control points, the order L {order} needs {order} at least"));
         }
         if curve.spoilt {
             return;
@@ -269,7 +270,9 @@ impl Machine<'_> {
         self.state.motion = Mode::None;
         let (n, order) = (curve.points.len(), curve.order);
         if n < order {
-            return out.fault(format!("alarm PS1001: {n} control points, the rank P{order} needs {order} at least"));
+            return out.fault(format!(
+                "alarm PS1001: {n} control points, the rank P{order} needs {order} at least"
+            ));
         }
         if let Some(complaint) = knot_complaint(&curve.knots, order) {
             return out.fault(complaint);

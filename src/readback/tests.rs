@@ -69,7 +69,8 @@ fn lines_carry_modal_state() {
 
 #[test]
 fn inches_and_increments_become_millimetres() {
-    let moves = clean("linuxcnc", "G20 G90 G17 G94 G61\nG0 X1 Y0 Z0.1\nM3 S500\nG1 G91 X0.5 F10\nG90 X2\nM2\n");
+    let moves =
+        clean("linuxcnc", "G20 G90 G17 G94 G61\nG0 X1 Y0 Z0.1\nM3 S500\nG1 G91 X0.5 F10\nG90 X2\nM2\n");
     assert!(close(line(&moves[1]).1.x, 1.5 * 25.4) && close(line(&moves[2]).1.x, 50.8));
     assert!(close(moves[1].feed.unwrap(), 254.0));
 }
