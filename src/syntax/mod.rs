@@ -10,6 +10,7 @@ pub mod ast;
 mod failure;
 mod grammar;
 mod limits;
+pub mod print;
 mod slips;
 mod split;
 mod tree;
