@@ -50,7 +50,9 @@ pub(super) fn explain(place: &Place<'_>, error: &Error<Rule>) -> Diagnostic {
 
 fn expectations(error: &Error<Rule>) -> Vec<Expected> {
     let mut list: Vec<Expected> = match &error.variant {
-        ErrorVariant::ParsingError { positives, .. } => positives.iter().filter_map(|&r| expected(r)).collect(),
+        ErrorVariant::ParsingError { positives, .. } => {
+            positives.iter().filter_map(|&r| expected(r)).collect()
+        }
         ErrorVariant::CustomError { .. } => Vec::new(),
     };
     list.sort_unstable();
@@ -231,13 +233,20 @@ fn operator_slip(place: &Place<'_>, at: usize, expected: &[Expected]) -> Option<
         here.eq_ignore_ascii_case(written).then_some(start)
     };
     SLIPS.iter().find_map(|&(written, meant)| {
-        let back = if written.starts_with('.') { place.text.get(..at)?.len() - place.text.get(..at)?.trim_end().len() + 3 } else { 0 };
+        let back = if written.starts_with('.') {
+            place.text.get(..at)?.len() - place.text.get(..at)?.trim_end().len() + 3
+        } else {
+            0
+        };
         let start = near(written, back).or_else(|| if back == 0 { near(written, 1) } else { None })?;
         Some(
             Diagnostic::new(
                 &codes::UNEXPECTED,
                 place.span(start, start + written.len()),
-                format!("`{}` is not an operator", place.text.get(start..start + written.len()).unwrap_or(written)),
+                format!(
+                    "`{}` is not an operator",
+                    place.text.get(start..start + written.len()).unwrap_or(written)
+                ),
             )
             .help(format!("write `{meant}`")),
         )
@@ -245,7 +254,12 @@ fn operator_slip(place: &Place<'_>, at: usize, expected: &[Expected]) -> Option<
 }
 
 /// Two commas in a row, or a comma at the end.
-fn doubled_comma(place: &Place<'_>, at: usize, found: &Found<'_>, expected: &[Expected]) -> Option<Diagnostic> {
+fn doubled_comma(
+    place: &Place<'_>,
+    at: usize,
+    found: &Found<'_>,
+    expected: &[Expected],
+) -> Option<Diagnostic> {
     let value = expected.contains(&Expected::Value);
     let before = place.text.get(..at)?.trim_end();
     (value && found.text == "," && before.ends_with([',', '/', '('])).then(|| {
@@ -268,7 +282,12 @@ fn parenthesis(place: &Place<'_>, at: usize, found: &Found<'_>, expected: &[Expe
 }
 
 /// An operator or a comma with nothing behind it.
-fn missing_value(place: &Place<'_>, at: usize, found: &Found<'_>, expected: &[Expected]) -> Option<Diagnostic> {
+fn missing_value(
+    place: &Place<'_>,
+    at: usize,
+    found: &Found<'_>,
+    expected: &[Expected],
+) -> Option<Diagnostic> {
     if !expected.contains(&Expected::Value) || found.starts_value() {
         return None;
     }
@@ -285,11 +304,16 @@ fn missing_value(place: &Place<'_>, at: usize, found: &Found<'_>, expected: &[Ex
 fn plain(place: &Place<'_>, at: usize, found: &Found<'_>, expected: &[Expected]) -> Diagnostic {
     let span = place.span(at, at + found.text.len());
     if expected.contains(&Expected::Comma) && found.starts_value() {
-        return Diagnostic::new(&codes::UNEXPECTED, span, "expected a comma").at(format!("before {}", found.words()));
+        return Diagnostic::new(&codes::UNEXPECTED, span, "expected a comma")
+            .at(format!("before {}", found.words()));
     }
     if expected.contains(&Expected::Statement) {
-        return Diagnostic::new(&codes::UNEXPECTED, span, format!("a statement cannot start with {}", found.words()))
-            .help("a statement starts with a word, as in `GOTO/ 1, 2`, or with a name and `=`");
+        return Diagnostic::new(
+            &codes::UNEXPECTED,
+            span,
+            format!("a statement cannot start with {}", found.words()),
+        )
+        .help("a statement starts with a word, as in `GOTO/ 1, 2`, or with a name and `=`");
     }
     let wanted: Vec<Expected> = expected.iter().copied().filter(|e| *e != Expected::Open).collect();
     let wanted = if wanted.is_empty() { expected.to_vec() } else { wanted };

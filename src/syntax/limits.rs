@@ -32,12 +32,8 @@ pub(super) fn too_long(span: Span, bytes: usize) -> Diagnostic {
 }
 
 pub(super) fn too_many_operators(span: Span) -> Diagnostic {
-    Diagnostic::new(
-        &codes::TOO_COMPLEX,
-        span,
-        format!("this expression has more than {OPERATORS} operators"),
-    )
-    .help("name a part of it in a statement of its own")
+    Diagnostic::new(&codes::TOO_COMPLEX, span, format!("this expression has more than {OPERATORS} operators"))
+        .help("name a part of it in a statement of its own")
 }
 
 /// Sets pest's guard against a grammar that goes astray; the guard belongs to the process, and is the same for

@@ -59,9 +59,9 @@ fn statement(file: FileId, text: &str, piece: &Logical, mistakes: &mut Vec<Diagn
             text: slice(text, range).to_owned(),
             text_span: Span::new(file, range.0, range.1),
         },
-        LogicalKind::Broken => {
-            StatementKind::Bad { declares: failure::declared(file, piece.start, slice(text, (piece.start, piece.end))) }
-        }
+        LogicalKind::Broken => StatementKind::Bad {
+            declares: failure::declared(file, piece.start, slice(text, (piece.start, piece.end))),
+        },
     };
     Statement { span, jump_label: None, kind }
 }

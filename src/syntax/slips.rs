@@ -27,11 +27,8 @@ pub(super) fn stray(character: char, span: Span) -> Diagnostic {
     } else {
         format!("`{character}` (U+{code_point:04X})")
     };
-    let diagnostic = Diagnostic::new(
-        &codes::STRAY_CHARACTER,
-        span,
-        format!("the character {shown} has no meaning here"),
-    );
+    let diagnostic =
+        Diagnostic::new(&codes::STRAY_CHARACTER, span, format!("the character {shown} has no meaning here"));
     match advice(character) {
         Some(help) => diagnostic.help(help),
         None => diagnostic,

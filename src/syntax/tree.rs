@@ -270,9 +270,7 @@ impl Builder<'_> {
             }
         }
         match words.pop() {
-            Some(word) => {
-                StatementKind::Command(Command { label: None, prefixes: words, word, slash, args })
-            }
+            Some(word) => StatementKind::Command(Command { label: None, prefixes: words, word, slash, args }),
             None => StatementKind::Bad { declares: None },
         }
     }
@@ -333,7 +331,10 @@ impl Builder<'_> {
             None => Diagnostic::new(
                 &codes::UNEXPECTED,
                 self.span(&word),
-                format!("a definition inside another statement stands in parentheses: `({}/ …)`", word.as_str()),
+                format!(
+                    "a definition inside another statement stands in parentheses: `({}/ …)`",
+                    word.as_str()
+                ),
             ),
         };
         if self.mistakes.is_empty() {
@@ -369,7 +370,13 @@ impl Builder<'_> {
         self.operators -= operators;
         let operands: Vec<_> = tokens
             .into_iter()
-            .map(|t| if is_operand(t.as_rule()) { Token::Operand(self.operand(t.clone()), t) } else { Token::Operator(t) })
+            .map(|t| {
+                if is_operand(t.as_rule()) {
+                    Token::Operand(self.operand(t.clone()), t)
+                } else {
+                    Token::Operator(t)
+                }
+            })
             .collect();
         climb(self.file, self.offset, operands)
     }
@@ -489,8 +496,7 @@ impl Builder<'_> {
         let mut rest = parts.arguments.into_iter();
         let first = rest.next().into_iter().flat_map(Pair::into_inner).flat_map(Pair::into_inner);
         let first = self.tokens([parts.word, parts.slash].into_iter().chain(first).collect());
-        let rest: Vec<Expr> =
-            rest.flat_map(Pair::into_inner).map(|e| self.expression(e)).collect();
+        let rest: Vec<Expr> = rest.flat_map(Pair::into_inner).map(|e| self.expression(e)).collect();
         if rest.is_empty() {
             return ExprKind::Paren(Box::new(first));
         }

@@ -17,11 +17,8 @@ pub const MISSING_SLASH: Code = Code {
 };
 
 /// a comma too many.
-pub const DOUBLED_COMMA: Code = Code {
-    id: "E0103",
-    title: "a comma too many",
-    page: include_str!("../../../docs/diagnostics/E0103.md"),
-};
+pub const DOUBLED_COMMA: Code =
+    Code { id: "E0103", title: "a comma too many", page: include_str!("../../../docs/diagnostics/E0103.md") };
 
 /// a parenthesis is missing or too many.
 pub const UNBALANCED: Code = Code {
