@@ -77,3 +77,9 @@ pub fn pow(x: f64, y: f64) -> f64 {
 pub fn cbrt(x: f64) -> f64 {
     libm::cbrt(x)
 }
+/// A count as a floating-point number; exact up to 2^53, far above any count here.
+#[must_use]
+#[allow(clippy::cast_precision_loss)]
+pub fn count(n: usize) -> f64 {
+    n as f64
+}

@@ -7,6 +7,7 @@ pub mod cam;
 pub mod curve;
 pub mod follower;
 pub mod motion;
+pub mod surface;
 mod tridiagonal;
 
 /// A point of the working plane, mm.

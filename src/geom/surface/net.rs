@@ -1,0 +1,206 @@
+//! A net of Bezier patches: `(3m+1) × (3n+1)` poles are m × n bicubic patches, other counts one patch.
+
+use super::patch::{MAX_DEGREE, Patch, SurfaceJet};
+use crate::geom::Point3;
+use crate::units::Angle;
+
+/// What is wrong with a net, with the place.
+#[derive(Debug, Clone, PartialEq)]
+pub enum NetIssue {
+    /// Fewer than two rows or columns, or a degree above the largest.
+    Size {
+        /// Rows.
+        rows: usize,
+        /// Columns.
+        columns: usize,
+    },
+    /// The number of poles is not rows times columns.
+    Count {
+        /// Poles wanted.
+        wanted: usize,
+        /// Poles given.
+        given: usize,
+    },
+    /// A coordinate or weight that is not finite, or a weight that is not positive.
+    NotFinite,
+    /// A patch whose r_u × r_v vanishes on a whole edge or at a corner, or that folds back: patch (i, j), (u, v).
+    Degenerate {
+        /// Patch row and column.
+        patch: [usize; 2],
+        /// Parameters inside the patch.
+        at: [f64; 2],
+        /// The point, mm.
+        point: Point3,
+    },
+}
+
+/// How two neighbouring patches meet.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Joint {
+    /// First patch (row, column); the second is the next one in `axis`.
+    pub patch: [usize; 2],
+    /// 0: the joint runs in v between rows; 1: in u between columns.
+    pub axis: usize,
+    /// Largest angle between the two normals along the joint (sampled at 65 places).
+    pub angle: Angle,
+    /// Where it is largest, mm.
+    pub at: Point3,
+}
+
+/// A net of patches; its parameters run over `0..=patch rows` in u and `0..=patch columns` in v.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Net {
+    rows: usize,
+    columns: usize,
+    patches: Vec<Patch>,
+}
+
+impl Net {
+    /// A net from `rows × columns` poles, row by row (a row runs in v), and weights.
+    ///
+    /// # Errors
+    /// [`NetIssue`]: sizes, counts, numbers.
+    pub fn new(
+        rows: usize,
+        columns: usize,
+        poles: &[Point3],
+        weights: Option<&[f64]>,
+    ) -> Result<Net, NetIssue> {
+        let wanted = rows.saturating_mul(columns);
+        if poles.len() != wanted || weights.is_some_and(|w| w.len() != wanted) {
+            let given = weights.map_or(poles.len(), |w| w.len().min(poles.len()));
+            return Err(NetIssue::Count { wanted, given });
+        }
+        let cubic = |n: usize| n >= 4 && n % 3 == 1;
+        let chain = cubic(rows) && cubic(columns);
+        let small = |n: usize| (2..=MAX_DEGREE + 1).contains(&n);
+        if !chain && !(small(rows) && small(columns)) {
+            return Err(NetIssue::Size { rows, columns });
+        }
+        let (count_u, count_v) = if chain { ((rows - 1) / 3, (columns - 1) / 3) } else { (1, 1) };
+        let size = if chain { [4, 4] } else { [rows, columns] };
+        let mut patches = Vec::with_capacity(count_u * count_v);
+        for i in 0..count_u {
+            for j in 0..count_v {
+                let pick = |k: usize| (3 * i + k / size[1]) * columns + 3 * j + k % size[1];
+                let own: Vec<Point3> = (0..size[0] * size[1]).map(|k| poles[pick(k)]).collect();
+                let own_weights: Option<Vec<f64>> =
+                    weights.map(|w| (0..size[0] * size[1]).map(|k| w[pick(k)]).collect());
+                let patch = Patch::new(size[0], size[1], &own, own_weights.as_deref());
+                patches.push(patch.ok_or(NetIssue::NotFinite)?);
+            }
+        }
+        Ok(Net { rows: count_u, columns: count_v, patches })
+    }
+    /// Patch rows and columns.
+    #[must_use]
+    pub fn size(&self) -> [usize; 2] {
+        [self.rows, self.columns]
+    }
+    /// Patches, row by row.
+    #[must_use]
+    pub fn patches(&self) -> &[Patch] {
+        &self.patches
+    }
+    /// The patch that holds (u, v), and the parameters inside it; outside the net, the nearest.
+    #[must_use]
+    pub fn locate(&self, u: f64, v: f64) -> (&Patch, f64, f64) {
+        let split = |t: f64, n: usize| {
+            let t = t.clamp(0.0, crate::math::count(n));
+            let mut k = 0;
+            while k + 1 < n && t >= crate::math::count(k + 1) {
+                k += 1;
+            }
+            (k, t - crate::math::count(k))
+        };
+        let (i, s) = split(u, self.rows);
+        let (j, t) = split(v, self.columns);
+        (&self.patches[i * self.columns + j], s, t)
+    }
+    /// Surface point and derivatives at net parameters.
+    #[must_use]
+    pub fn jet(&self, u: f64, v: f64) -> SurfaceJet {
+        let (patch, s, t) = self.locate(u, v);
+        patch.jet(s, t)
+    }
+    /// The joints between neighbouring patches with their worst normal angle. Poles are shared, so that
+    /// every joint is C0 by construction.
+    #[must_use]
+    pub fn joints(&self) -> Vec<Joint> {
+        let mut out = Vec::new();
+        for i in 0..self.rows {
+            for j in 0..self.columns {
+                if i + 1 < self.rows {
+                    out.push(self.joint(i, j, 0));
+                }
+                if j + 1 < self.columns {
+                    out.push(self.joint(i, j, 1));
+                }
+            }
+        }
+        out
+    }
+    fn joint(&self, i: usize, j: usize, axis: usize) -> Joint {
+        const PLACES: u32 = 64;
+        let first = &self.patches[i * self.columns + j];
+        let second =
+            &self.patches[if axis == 0 { (i + 1) * self.columns + j } else { i * self.columns + j + 1 }];
+        let mut worst = (0.0, first.point(1.0, 1.0));
+        for k in 0..=PLACES {
+            let t = f64::from(k) / f64::from(PLACES);
+            let (a, b) = if axis == 0 {
+                (first.jet(1.0, t), second.jet(0.0, t))
+            } else {
+                (first.jet(t, 1.0), second.jet(t, 0.0))
+            };
+            if let (Some(m), Some(n)) = (a.normal(), b.normal()) {
+                let angle = crate::math::atan2(m.cross(&n).norm(), m.dot(&n));
+                if angle > worst.0 {
+                    worst = (angle, a.p);
+                }
+            }
+        }
+        Joint { patch: [i, j], axis, angle: Angle::radians(worst.0), at: worst.1 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn grid(rows: usize, columns: usize, z: impl Fn(usize, usize) -> f64) -> Vec<Point3> {
+        (0..rows * columns)
+            .map(|k| {
+                let (i, j) = (k / columns, k % columns);
+                Point3::new(10.0 * crate::math::count(i), 10.0 * crate::math::count(j), z(i, j))
+            })
+            .collect()
+    }
+
+    #[test]
+    fn counts_decide_the_patches() {
+        let net = Net::new(7, 4, &grid(7, 4, |_, _| 0.0), None).expect("a net");
+        assert_eq!(net.size(), [2, 1]);
+        let net = Net::new(3, 5, &grid(3, 5, |_, _| 0.0), None).expect("a net");
+        assert_eq!((net.size(), net.patches()[0].degree()), ([1, 1], [2, 4]));
+        assert_eq!(
+            Net::new(4, 4, &grid(4, 3, |_, _| 0.0), None),
+            Err(NetIssue::Count { wanted: 16, given: 12 })
+        );
+        assert_eq!(
+            Net::new(1, 4, &grid(1, 4, |_, _| 0.0), None),
+            Err(NetIssue::Size { rows: 1, columns: 4 })
+        );
+    }
+
+    #[test]
+    fn a_crease_shows_at_its_joint() {
+        let roof =
+            |i: usize, _: usize| if i <= 3 { crate::math::count(i) } else { 6.0 - crate::math::count(i) };
+        let net = Net::new(7, 4, &grid(7, 4, roof), None).expect("a net");
+        let joints = net.joints();
+        assert_eq!(joints.len(), 1);
+        let slope = crate::math::atan2(1.0, 10.0);
+        assert!((joints[0].angle.rad() - 2.0 * slope).abs() < 1e-12);
+    }
+}
