@@ -5,8 +5,11 @@
 
 pub mod cam;
 pub mod curve;
+mod extremum;
 pub mod follower;
+pub mod measure;
 pub mod motion;
+mod quadrature;
 pub mod surface;
 mod tridiagonal;
 
