@@ -15,6 +15,7 @@ pub mod arena;
 pub mod cl;
 pub mod cli;
 pub mod diag;
+pub mod driver;
 pub mod geom;
 pub mod ir;
 pub mod lower;

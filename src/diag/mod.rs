@@ -6,6 +6,7 @@
 //! [`codes`]; its page for `partwright explain` lies in `docs/diagnostics/`.
 
 pub mod codes;
+mod excerpt;
 pub mod render;
 
 use crate::source::Span;

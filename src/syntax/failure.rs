@@ -40,8 +40,8 @@ pub(super) fn explain(place: &Place<'_>, error: &Error<Rule>) -> Diagnostic {
         .or_else(|| two_words(place, at))
         .or_else(|| bad_number(place, at))
         .or_else(|| missing_slash(place, at))
-        .or_else(|| assignment_in_condition(place, at, &found))
         .or_else(|| operator_slip(place, at, &expected))
+        .or_else(|| assignment_in_condition(place, at, &found))
         .or_else(|| doubled_comma(place, at, &found, &expected))
         .or_else(|| parenthesis(place, at, &found, &expected))
         .or_else(|| missing_value(place, at, &found, &expected));

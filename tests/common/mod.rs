@@ -1,0 +1,36 @@
+//! What several test programs need.
+#![allow(dead_code)]
+
+use std::path::{Path, PathBuf};
+
+use partwright::source::{FileError, FileProvider};
+
+/// The files of one directory, named relative to it.
+pub struct Directory(pub PathBuf);
+
+impl FileProvider for Directory {
+    fn read(&self, from: Option<&str>, path: &str) -> Result<(String, String), FileError> {
+        let folder = from.and_then(|f| Path::new(f).parent()).unwrap_or(Path::new(""));
+        let name = folder.join(path);
+        let bytes = std::fs::read(self.0.join(&name)).map_err(|_| FileError::NotFound)?;
+        let text = String::from_utf8(bytes).map_err(|e| FileError::NotUtf8(e.utf8_error().valid_up_to()))?;
+        Ok((name.to_string_lossy().into_owned(), text))
+    }
+}
+
+/// All files below `folder` with the extension, in order, those whose name starts with `_` left out.
+pub fn find(folder: &Path, extension: &str) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    let Ok(entries) = std::fs::read_dir(folder) else { return found };
+    for entry in entries.filter_map(Result::ok) {
+        let path = entry.path();
+        let hidden = entry.file_name().to_string_lossy().starts_with('_');
+        if path.is_dir() {
+            found.extend(find(&path, extension));
+        } else if !hidden && path.extension().is_some_and(|e| e == extension) {
+            found.push(path);
+        }
+    }
+    found.sort();
+    found
+}
