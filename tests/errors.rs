@@ -127,7 +127,8 @@ fn annotation(line: &str) -> Option<(Option<usize>, &str)> {
 
 fn reduce(diagnostic: &Diagnostic, sources: &SourceMap) -> Expected {
     let labels = diagnostic.primary.iter().chain(&diagnostic.labels).map(|l| &l.message);
-    let parts = core::iter::once(&diagnostic.message).chain(labels).chain(&diagnostic.notes).chain(&diagnostic.help);
+    let parts =
+        core::iter::once(&diagnostic.message).chain(labels).chain(&diagnostic.notes).chain(&diagnostic.help);
     let place = diagnostic.primary.as_ref().map(|l| (sources.file(l.span.file), l.span.start));
     Expected {
         file: place.map_or(String::new(), |(file, _)| file.name.clone()),

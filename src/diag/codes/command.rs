@@ -45,11 +45,8 @@ pub const ONE_OUTPUT: Code = Code {
 };
 
 /// no post is named.
-pub const NO_POST: Code = Code {
-    id: "E0907",
-    title: "no post is named",
-    page: include_str!("../../../docs/diagnostics/E0907.md"),
-};
+pub const NO_POST: Code =
+    Code { id: "E0907", title: "no post is named", page: include_str!("../../../docs/diagnostics/E0907.md") };
 
 /// unknown diagnostic code.
 pub const UNKNOWN_CODE: Code = Code {
