@@ -11,7 +11,11 @@
 //! - On a closed curve the last primitive ends at [`Fit::start`] (a spiral chain: a whole turn of the angle further).
 //! - On an open curve the first and the last vertex lie in the band on the normals of the curve's ends, as near as the grid allows.
 
+pub mod arcs;
+
 use core::fmt;
+
+pub use arcs::arcs;
 
 use crate::geom::Point2;
 use crate::geom::curve::PlanarCurve;

@@ -1,0 +1,106 @@
+//! Smallest largest deviation of a chain with a given number of arcs: sequential linear minimax programming with a
+//! trust region.
+
+use super::chain::{Chain, Goal, Member, measure, rows};
+use super::minimax::{BLOCK, Problem, Row, WIDTH};
+use super::stretch::Stretch;
+
+/// When to stop improving.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Stop {
+    /// Good enough, mm from the middle of the band.
+    pub target: f64,
+    /// Iterations at most.
+    pub iterations: usize,
+    /// Relative gain of an iteration that is not worth another.
+    pub gain: f64,
+}
+
+/// Accuracy of each linear problem, relative.
+const LINEAR: f64 = 1e-3;
+/// Largest move of a joint along the curve in one iteration, as a share of the shorter arc beside it.
+const SLIDE: f64 = 0.35;
+/// Trust region below which nothing can be gained.
+const SMALLEST_TRUST: f64 = 1e-3;
+
+/// Improves `chain`; returns it with its largest distance from the middle of the band, mm (tangent errors weighted in).
+pub(super) fn improve(mut chain: Chain, stretch: &Stretch<'_>, goal: &Goal, stop: &Stop) -> (Chain, f64) {
+    let mut worst = measure(&chain, stretch, goal);
+    let mut trust = 1.0;
+    let mut stalls = 0;
+    for _ in 0..stop.iterations {
+        if worst <= stop.target || trust < SMALLEST_TRUST {
+            break;
+        }
+        let scales = scales(&chain, stretch, trust, worst);
+        let mut problem = Problem { blocks: chain.joints.len(), cyclic: chain.closed, rows: Vec::new() };
+        rows(&chain, stretch, goal, &mut problem.rows);
+        scale_rows(&mut problem.rows, &scales);
+        boxes(&mut problem.rows, scales.len());
+        let Some(solution) = problem.solve(LINEAR) else { break };
+        let step: Vec<f64> = solution.x.iter().zip(&scales).map(|(x, s)| x * s).collect();
+        let next = chain.moved(stretch, &step);
+        let found = measure(&next, stretch, goal);
+        let (expected, gained) = (worst - solution.t, worst - found);
+        if gained > 0.0 {
+            stalls = if gained < stop.gain * worst { stalls + 1 } else { 0 };
+            chain = next;
+            worst = found;
+        }
+        match gained / expected.max(1e-300) {
+            r if r > 0.6 => trust = (2.0_f64 * trust).min(1.0),
+            r if r < 0.2 => trust *= 0.35,
+            _ => {}
+        }
+        if expected < stop.gain * worst || stalls > 1 {
+            break;
+        }
+    }
+    (chain, worst)
+}
+
+/// Largest move of every variable.
+fn scales(chain: &Chain, stretch: &Stretch<'_>, trust: f64, worst: f64) -> Vec<f64> {
+    let mut out = vec![0.0; chain.joints.len() * BLOCK];
+    let lengths: Vec<f64> =
+        (0..chain.len()).map(|i| chain.station_after(stretch, i) - chain.joints[i].s).collect();
+    for j in 0..chain.joints.len() {
+        let before = chain.before(j).map_or(f64::INFINITY, |i| lengths[i]);
+        let after = lengths.get(j).copied().unwrap_or(f64::INFINITY);
+        out[j * BLOCK] = SLIDE * trust * before.min(after);
+        out[j * BLOCK + 1] = 4.0 * trust * worst;
+        out[j * BLOCK + 2] = if after.is_finite() { 32.0 * trust * worst / after } else { 1.0 };
+    }
+    out
+}
+
+fn scale_rows(rows: &mut [Row], scales: &[f64]) {
+    for row in rows {
+        for (k, c) in row.coefficients.iter_mut().enumerate() {
+            *c *= scales[(row.block * BLOCK + k) % scales.len()];
+        }
+    }
+}
+
+/// The trust region: every scaled variable within one.
+fn boxes(rows: &mut Vec<Row>, variables: usize) {
+    for v in 0..variables {
+        let mut coefficients = [0.0; WIDTH];
+        coefficients[v % BLOCK] = 1.0;
+        rows.push(Row { block: v / BLOCK, coefficients, value: 0.0, limit: 1.0, slope: 0.0 });
+    }
+}
+
+/// Makes the half sweeps those of the curve's turning, corrected for the joints' positions.
+pub(super) fn natural_halves(chain: &mut Chain) {
+    for i in 0..chain.len() {
+        let end = chain.end(i);
+        if let Member::Arc(_) = chain.members[i] {
+            let (a, b) = (chain.joints[i], chain.joints[end]);
+            let d = super::chain::Drawn::new(a.p, b.p, 0.0);
+            let before = super::stretch::turn(a.frame.t, d.chord);
+            let after = super::stretch::turn(d.chord, b.frame.t);
+            chain.members[i] = Member::Arc(0.5 * (before + after));
+        }
+    }
+}

@@ -1,0 +1,134 @@
+//! Tests of the arc fit.
+
+use std::sync::Arc;
+
+use crate::geom::curve::{CurveRef, Frenet, PlanarCurve};
+use crate::geom::{Point2, Vec2};
+use crate::lower::fit::{Grid, Tube};
+use crate::math;
+
+/// Pitch curve C = (r + s(θ)) u of a plate cam with dwell-rise-dwell-return segments, modified sine.
+#[derive(Debug)]
+pub(super) struct Pitch {
+    radius: f64,
+    lift: f64,
+    breaks: Vec<f64>,
+    /// Ends of rise and return.
+    rise: (f64, f64),
+    fall: (f64, f64),
+}
+
+/// Lift, velocity and acceleration of the modified sine over x in 0..1.
+fn modified_sine(x: f64) -> (f64, f64, f64) {
+    let pi = math::PI;
+    let c = pi / (4.0 + pi);
+    if x < 0.125 {
+        (
+            c * (x - math::sin(4.0 * pi * x) / (4.0 * pi)),
+            c * (1.0 - math::cos(4.0 * pi * x)),
+            c * 4.0 * pi * math::sin(4.0 * pi * x),
+        )
+    } else if x <= 0.875 {
+        let w = 4.0 * pi * x / 3.0 + pi / 3.0;
+        (
+            c * (2.0 / pi + x - 9.0 / (4.0 * pi) * math::sin(w)),
+            c * (1.0 - 3.0 * math::cos(w)),
+            c * 4.0 * pi * math::sin(w),
+        )
+    } else {
+        let w = 4.0 * pi * x;
+        (
+            c * (4.0 / pi + x - math::sin(w) / (4.0 * pi)),
+            c * (1.0 - math::cos(w)),
+            c * 4.0 * pi * math::sin(w),
+        )
+    }
+}
+
+impl Pitch {
+    pub fn paper() -> Pitch {
+        Pitch::new(28.0, 20.0, (30.0, 150.0), (210.0, 330.0))
+    }
+    pub fn new(radius: f64, lift: f64, rise: (f64, f64), fall: (f64, f64)) -> Pitch {
+        let d = math::DEG;
+        let mut breaks = vec![0.0];
+        for (a, b) in [rise, fall] {
+            for x in [0.0, 0.125, 0.875, 1.0] {
+                breaks.push((a + (b - a) * x) * d);
+            }
+        }
+        breaks.push(360.0 * d);
+        breaks.dedup();
+        Pitch { radius, lift, breaks, rise: (rise.0 * d, rise.1 * d), fall: (fall.0 * d, fall.1 * d) }
+    }
+    fn lift(&self, t: f64) -> (f64, f64, f64) {
+        let scaled = |x: f64, h: f64| {
+            let (s, v, a) = modified_sine(x);
+            (self.lift * s, self.lift * v / h, self.lift * a / (h * h))
+        };
+        if t < self.rise.0 || t > self.fall.1 {
+            (0.0, 0.0, 0.0)
+        } else if t < self.rise.1 {
+            scaled((t - self.rise.0) / (self.rise.1 - self.rise.0), self.rise.1 - self.rise.0)
+        } else if t < self.fall.0 {
+            (self.lift, 0.0, 0.0)
+        } else {
+            let h = self.fall.1 - self.fall.0;
+            let (s, v, a) = scaled((t - self.fall.0) / h, h);
+            (self.lift - s, -v, -a)
+        }
+    }
+}
+
+impl PlanarCurve for Pitch {
+    fn domain(&self) -> (f64, f64) {
+        (0.0, math::TAU)
+    }
+    fn at(&self, t: f64) -> Frenet {
+        let (s, v, a) = self.lift(t);
+        let (sin, cos) = math::sin_cos(t);
+        let (u, n) = (Vec2::new(cos, sin), Vec2::new(-sin, cos));
+        let r = self.radius + s;
+        let speed = math::hypot(v, r);
+        let k = (r * r + 2.0 * v * v - r * a) / (speed * speed * speed);
+        Frenet { p: Point2::from(u * r), t: (u * v + n * r) / speed, speed, k }
+    }
+    fn at_in(&self, _span: usize, u: f64) -> Frenet {
+        self.at(u)
+    }
+    fn breaks(&self) -> &[f64] {
+        &self.breaks
+    }
+    fn is_closed(&self) -> bool {
+        true
+    }
+}
+
+pub(super) fn paper() -> CurveRef {
+    Arc::new(Pitch::paper())
+}
+
+#[test]
+fn probe() {
+    let curve = paper();
+    for (left, right, grids) in [(0.01, 0.01, [0.001, 1e-5, 0.00254]), (0.01, 0.0, [0.001, 1e-5, 0.00254])] {
+        for step in grids {
+            let clock = std::time::Instant::now();
+            let tube = Tube { curve: curve.as_ref(), left, right };
+            let grid = Grid { step, centre_step: step, angle_step: 0.001 };
+            let fit = super::arcs(&tube, &grid, false, None);
+            match fit {
+                Ok(fit) => {
+                    assert!(fit.deviation.0 <= left && fit.deviation.1 <= right && fit.primitives.len() < 20);
+                    println!(
+                        "{left} {right} {step} n {} {:?} {:?}",
+                        fit.primitives.len(),
+                        fit.deviation,
+                        clock.elapsed()
+                    );
+                }
+                Err(e) => panic!("{left} {right} {step}: {e}"),
+            }
+        }
+    }
+}
