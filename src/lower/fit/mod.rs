@@ -11,11 +11,25 @@
 //! - On a closed curve the last primitive ends at [`Fit::start`] (a spiral chain: a whole turn of the angle further).
 //! - On an open curve the first and the last vertex lie in the band on the normals of the curve's ends, as near as the grid allows.
 
-pub mod arcs;
-
 use core::fmt;
 
+pub mod arcs;
+pub mod bound;
+mod chain;
+mod lines;
+pub mod measure;
+#[cfg(test)]
+mod samples;
+mod search;
+mod spirals;
+#[cfg(test)]
+mod tests;
+pub mod tube;
+mod window;
+
 pub use arcs::arcs;
+pub use lines::lines;
+pub use spirals::spirals;
 
 use crate::geom::Point2;
 use crate::geom::curve::PlanarCurve;

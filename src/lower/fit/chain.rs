@@ -1,0 +1,484 @@
+//! A chain of links through a tube: where it starts and ends, how it closes, and its certified deviation.
+
+use super::measure::{Path, Range, Sample, between, foot};
+use super::search::{Effort, Goal, Search, Stuck, Vertex, seed};
+use super::tube::{Corner, Gates, Guard, Plane, ROUNDING, Station, Stations};
+use super::window::Course;
+use super::{Fit, FitError, Primitive, Tube, bound};
+use crate::geom::{Point2, Vec2};
+use crate::math;
+
+/// Accuracy of the certified deviation, mm.
+pub const ACCURACY: f64 = 1e-8;
+/// Deviations are accepted this far beyond the band, mm: the rounding that the gates allow, and that of measuring.
+const ACCEPTED: f64 = 4.0 * ROUNDING;
+/// Parts of the band that are tried when the certified deviation of a chain leaves it.
+const RETRIES: [f64; 4] = [1.0, 0.998, 0.99, 0.96];
+
+/// A chain of grid vertices; the last one closes it or ends it.
+#[derive(Debug, Clone)]
+struct Chain {
+    vertices: Vec<Vertex>,
+    /// Links that would do if fractions of a link existed, about.
+    fraction: f64,
+    range: Range,
+}
+
+impl Chain {
+    fn links(&self) -> usize {
+        self.vertices.len() - 1
+    }
+}
+
+/// Fits the fewest links of a plane.
+///
+/// # Errors
+/// See [`FitError`].
+pub fn fit(tube: &Tube, plane: Plane, start: Option<f64>) -> Result<Fit, FitError> {
+    let stations = Stations::new(tube, plane, None)?;
+    let bound = bound::links(&stations, tube);
+    let mut solver = Solver { tube, stations: &stations, search: Search::default(), bound };
+    let from = solver.start_station(start);
+    let chain = solver.best(from)?;
+    let link = |v: &Vertex| match plane {
+        Plane::Xy { .. } => Primitive::Line { to: v.at },
+        Plane::Polar { .. } => Primitive::Spiral { to: v.at },
+    };
+    Ok(Fit {
+        start: chain.vertices[0].at,
+        primitives: chain.vertices[1..].iter().map(link).collect(),
+        lower_bound: Some(bound),
+        deviation: chain.range.sides(),
+    })
+}
+
+/// How hard to try, by the number of links.
+fn effort(links: f64) -> (Effort, u32) {
+    match links {
+        n if n < 12.0 => (Effort { beam: 8, tries: 8 }, 8),
+        n if n < 300.0 => (Effort { beam: 4, tries: 6 }, 4),
+        n if n < 3_000.0 => (Effort { beam: 3, tries: 4 }, 3),
+        n if n < 30_000.0 => (Effort { beam: 2, tries: 3 }, 1),
+        _ => (Effort { beam: 2, tries: 2 }, 0),
+    }
+}
+
+struct Solver<'a> {
+    tube: &'a Tube<'a>,
+    stations: &'a Stations,
+    search: Search,
+    bound: u32,
+}
+
+impl Solver<'_> {
+    /// The station at which a closed chain should start.
+    fn start_station(&self, start: Option<f64>) -> usize {
+        let u = start.unwrap_or(self.tube.curve.domain().0);
+        self.stations.stations.partition_point(|s| s.u < u).min(self.stations.stations.len() - 1)
+    }
+
+    /// The chain with the fewest links, and among those found the one with the smallest deviation.
+    fn best(&mut self, from: usize) -> Result<Chain, FitError> {
+        let (effort, rounds) = effort(f64::from(self.bound));
+        let mut best = None;
+        for scale in RETRIES {
+            best = self.attempt(scale, from, effort).ok();
+            if best.is_some() {
+                break;
+            }
+        }
+        let mut best = match best {
+            Some(chain) => chain,
+            None => self.harder(from)?,
+        };
+        self.fewer(&mut best, from, effort, rounds);
+        self.shrink(&mut best, from, effort, rounds);
+        Ok(best)
+    }
+
+    /// A wide search where the narrow one died; then the question how wide the band should be.
+    fn harder(&mut self, from: usize) -> Result<Chain, FitError> {
+        let wide = Effort { beam: 32, tries: 12 };
+        let stuck = match self.attempt(1.0, from, wide) {
+            Ok(chain) => return Ok(chain),
+            Err(stuck) => stuck,
+        };
+        let n = self.stations.stations.len();
+        let at = self.stations.stations[stuck.gate % n].frenet.p;
+        let have = self.tube.left + self.tube.right;
+        let unit = match self.stations.plane {
+            Plane::Xy { step } | Plane::Polar { step, .. } => step,
+        };
+        let mut needed = have.max(unit / 16.0);
+        for _ in 0..24 {
+            needed *= 1.5;
+            let (left, right) = self.widened(needed - have);
+            let tube = Tube { curve: self.tube.curve, left, right };
+            let mut wider =
+                Solver { tube: &tube, stations: self.stations, search: Search::default(), bound: self.bound };
+            if wider.attempt(1.0, from, Effort { beam: 4, tries: 6 }).is_ok() {
+                break;
+            }
+        }
+        Err(FitError::BandTooNarrow { needed, have, at })
+    }
+
+    /// The band widened by `by` in its own proportion.
+    fn widened(&self, by: f64) -> (f64, f64) {
+        let have = self.tube.left + self.tube.right;
+        let share = if have > 0.0 { self.tube.left / have } else { 0.5 };
+        (self.tube.left + by * share, self.tube.right + by * (1.0 - share))
+    }
+
+    /// Other starts on a closed curve, while the bound leaves hope for fewer links.
+    fn fewer(&mut self, best: &mut Chain, from: usize, effort: Effort, rounds: u32) {
+        if !self.stations.closed {
+            return;
+        }
+        let n = self.stations.stations.len();
+        let link = (n / best.links().max(1)).max(1);
+        for round in 1..=rounds.min(3) {
+            let near = best.fraction < best.links() as f64 - 0.6;
+            if best.links() <= self.bound as usize || !near && round > 2 {
+                return;
+            }
+            let shifted = from + link * round as usize / 4;
+            if let Ok(chain) = self.attempt(1.0, shifted % n, effort)
+                && (chain.links(), self.excess(&chain.range)) < (best.links(), self.excess(&best.range))
+            {
+                *best = chain;
+            }
+        }
+    }
+
+    /// Narrower bands, as long as the number of links stays.
+    fn shrink(&mut self, best: &mut Chain, from: usize, effort: Effort, rounds: u32) {
+        let half = (self.tube.left + self.tube.right) / 2.0;
+        if half <= 0.0 {
+            return;
+        }
+        let links = best.links();
+        let mut fails = 0.0_f64;
+        for _ in 0..rounds {
+            let reached = self.excess(&best.range) / half;
+            let ratio = best.fraction / links as f64;
+            let hope = reached * (ratio * ratio * 1.004).clamp(0.02, 0.99);
+            let scale = if fails > 0.0 { f64::midpoint(fails, reached) } else { hope };
+            if scale > 0.997 * reached || scale * half < 1e-7 {
+                return;
+            }
+            match self.attempt(scale, from, effort) {
+                Ok(chain) if chain.links() <= links => {
+                    if self.excess(&chain.range) < self.excess(&best.range) {
+                        *best = chain;
+                    }
+                }
+                _ => fails = scale,
+            }
+        }
+    }
+
+    /// Largest deviation from the middle of the band, mm.
+    fn excess(&self, range: &Range) -> f64 {
+        let middle = (self.tube.left - self.tube.right) / 2.0;
+        (range.high - middle).max(middle - range.low)
+    }
+
+    /// A chain in a part of the band; only one that is certified to lie in the whole band.
+    fn attempt(&mut self, scale: f64, from: usize, effort: Effort) -> Result<Chain, Stuck> {
+        let gates = self.stations.gates(self.tube, scale, Guard::Inside);
+        if gates.len() < 2 {
+            return Err(Stuck { gate: 0 });
+        }
+        let vertices = if self.stations.closed {
+            self.closed(&gates, from, effort)?
+        } else {
+            self.open(&gates, effort)?
+        };
+        let fraction = fraction(&vertices);
+        let range = self.certify(&vertices);
+        let inside = range.high <= self.tube.left + ACCEPTED && range.low >= -self.tube.right - ACCEPTED;
+        if inside { Ok(Chain { vertices, fraction, range }) } else { Err(Stuck { gate: from }) }
+    }
+
+    /// A closed chain: a run-up finds a good first vertex, from which the lap is made.
+    fn closed(&mut self, gates: &Gates, from: usize, effort: Effort) -> Result<Vec<Vertex>, Stuck> {
+        let n = gates.len();
+        let link = n as f64 / f64::from(self.bound.max(1));
+        let back = ((3.0 * link).ceil() as usize).clamp(1, n);
+        let begin = from + n - back;
+        let endless = Course { gates, end: usize::MAX - 8, target: None };
+        let first =
+            (begin..begin + back.min(64)).find_map(|g| seed(gates, g)).ok_or(Stuck { gate: begin % n })?;
+        let narrow = Effort { beam: effort.beam.min(3), tries: effort.tries };
+        let heads = self.search.run(&endless, &[first], Goal::Beyond(from + n - 1), narrow)?;
+        let mut best: Option<Vec<Vertex>> = None;
+        let mut error = Stuck { gate: from };
+        for head in heads.into_iter().take(if n < 20_000 { 2 } else { 1 }) {
+            let head = unwind(head, gates);
+            match self.lap(gates, head, effort) {
+                Ok(chain) if best.as_ref().is_none_or(|b| better(&chain, b)) => best = Some(chain),
+                Ok(_) => {}
+                Err(stuck) => error = stuck,
+            }
+        }
+        best.ok_or(error)
+    }
+
+    fn lap(&mut self, gates: &Gates, head: Vertex, effort: Effort) -> Result<Vec<Vertex>, Stuck> {
+        let end = head.next + gates.len();
+        let target = head.point() + gates.lap;
+        let course = Course { gates, end, target: Some(target) };
+        let mut chain = self.search.run(&course, &[head], Goal::Target, effort)?;
+        chain.push(Vertex { at: rounded(target), next: end });
+        Ok(chain)
+    }
+
+    /// An open chain between the grid points nearest to the curve's ends.
+    fn open(&mut self, gates: &Gates, effort: Effort) -> Result<Vec<Vertex>, Stuck> {
+        let n = gates.len();
+        let course = Course { gates, end: n, target: None };
+        let tail = self.end_vertex(n - 1).ok_or(Stuck { gate: n - 1 })?;
+        let head = self.end_vertex(0).ok_or(Stuck { gate: 0 })?;
+        let (p, q) = (Vec2::new(head[0] as f64, head[1] as f64), Vec2::new(tail[0] as f64, tail[1] as f64));
+        let next = course.locate(p, 8.min(n - 1), 0).map_or(0, |g| g + 1).clamp(1, n - 1);
+        let end = course.locate(q, n - 1, next - 1).map_or(next, |g| g + 1).min(n - 1).max(next);
+        let course = Course { gates, end, target: Some(q) };
+        let head = Vertex { at: head, next };
+        let mut chain = self.search.run(&course, &[head], Goal::Target, effort)?;
+        chain.push(Vertex { at: tail, next: end });
+        Ok(chain)
+    }
+
+    /// The grid point nearest to the curve's end at station `i` that lies in the band.
+    fn end_vertex(&self, i: usize) -> Option<[i64; 2]> {
+        let f = self.stations.stations[i].frenet;
+        let plane = self.stations.plane;
+        let (l, near) = (self.angle_near(i), f.p);
+        let centre = plane.to_grid(near, l);
+        let mut best: Option<(f64, [i64; 2])> = None;
+        for dx in -3..=3 {
+            for dy in -3..=3 {
+                let at = [centre.x.round() as i64 + dx, centre.y.round() as i64 + dy];
+                let w = plane.to_part(Vec2::new(at[0] as f64, at[1] as f64)) - f.p;
+                let d = w.dot(&f.n());
+                let inside = d <= self.tube.left + ROUNDING && d >= -self.tube.right - ROUNDING;
+                if inside && best.is_none_or(|b| w.norm() < b.0) {
+                    best = Some((w.norm(), at));
+                }
+            }
+        }
+        best.map(|b| b.1)
+    }
+
+    /// Grid coordinates of station `i`, its angle counted on from the first station.
+    fn angle_near(&self, i: usize) -> Vec2 {
+        let plane = self.stations.plane;
+        self.stations.stations[..=i].iter().fold(Vec2::zeros(), |near, s| plane.to_grid(s.frenet.p, near))
+    }
+
+    /// Smallest and largest deviation of the chain, on its printed vertices.
+    fn certify(&self, vertices: &[Vertex]) -> Range {
+        let mut range = Range::EMPTY;
+        let feet: Vec<Foot> = vertices.iter().map(|v| self.foot(v)).collect();
+        for (pair, feet) in vertices.windows(2).zip(feet.windows(2)) {
+            self.certify_link(pair, feet, &mut range);
+        }
+        range
+    }
+
+    fn certify_link(&self, pair: &[Vertex], feet: &[Foot], range: &mut Range) {
+        let path = self.path(&pair[0], &pair[1]);
+        range.add(feet[0].d);
+        range.add(feet[1].d);
+        let n = self.stations.stations.len();
+        let mut before = feet[0].u.and_then(|u| self.sample(&path, u, feet[0].span));
+        for i in pair[0].next..pair[1].next {
+            let station = &self.stations.stations[i % n];
+            let Some(sample) = self.crossing(&path, station) else {
+                before = None;
+                continue;
+            };
+            range.add(sample.d);
+            if let Some(before) = before {
+                self.extremes(&path, before, sample, station, i, range);
+            }
+            before = Some(sample);
+        }
+        let last = feet[1].u.and_then(|u| self.sample(&path, u, feet[1].span));
+        if let (Some(a), Some(b)) = (before, last)
+            && b.u > a.u
+            && feet[1].span < self.tube.curve.breaks().len()
+        {
+            between(self.tube.curve, feet[1].span, &path, (a, b), ACCURACY, range);
+        }
+        self.bisectors(&path, pair, range);
+    }
+
+    /// Extremes between two samples, the second at station `i`.
+    fn extremes(
+        &self,
+        path: &Path,
+        a: Sample,
+        mut b: Sample,
+        station: &Station,
+        i: usize,
+        range: &mut Range,
+    ) {
+        let n = self.stations.stations.len();
+        if station.frenet.speed == 0.0 {
+            return;
+        }
+        let before = &self.stations.stations[(i + n - 1) % n];
+        let breaks = self.tube.curve.breaks();
+        let span = before.span;
+        // the station at a break belongs to the next span: measured again from this one
+        if station.span != span || b.u <= a.u {
+            let u = breaks[span + 1];
+            let Some(again) = self.sample(path, u, span) else { return };
+            b = again;
+        }
+        if b.u > a.u {
+            between(self.tube.curve, span, path, (a, b), ACCURACY, range);
+        }
+    }
+
+    fn sample(&self, path: &Path, u: f64, span: usize) -> Option<Sample> {
+        Sample::new(path, u, &self.tube.curve.at_in(span, u))
+    }
+
+    /// Where the station's normal meets the path, unless another part of the curve is nearer there (inside a corner).
+    fn crossing(&self, path: &Path, station: &Station) -> Option<Sample> {
+        let sample = Sample::new(path, station.u, &station.frenet)?;
+        let q = station.frenet.p + station.frenet.n() * sample.d;
+        let hidden = |c: &Corner| {
+            let inner = sample.d * c.half_sin > 0.0;
+            let near = (station.frenet.p - c.point).norm();
+            let close =
+                near * (1.0 - c.half_sin * c.half_sin).max(0.0).sqrt() <= sample.d.abs() * c.half_sin.abs();
+            // on the inner side the normals near a corner end at its bisector
+            inner
+                && close
+                && (station.frenet.speed == 0.0
+                    || (q - c.point).dot(&c.along) * (station.frenet.p - c.point).dot(&c.along) <= 0.0)
+        };
+        (!self.stations.corners.iter().any(hidden)).then_some(sample)
+    }
+
+    /// Distance from corners to the link, along their bisectors, on the inner side.
+    fn bisectors(&self, path: &Path, pair: &[Vertex], range: &mut Range) {
+        let n = self.stations.stations.len();
+        for corner in &self.stations.corners {
+            let lap = pair[1].next / n;
+            let inside = [0, lap * n]
+                .iter()
+                .any(|shift| pair[0].next <= corner.last + shift && corner.first + shift <= pair[1].next);
+            let f = crate::geom::curve::Frenet { p: corner.point, t: corner.along, speed: 0.0, k: 0.0 };
+            if !inside {
+                continue;
+            }
+            let Some(meeting) = path.meet(&f) else { continue };
+            let q = corner.point + corner.bisector() * meeting.d;
+            let (a, b) = (self.part(&pair[0]), self.part(&pair[1]));
+            let within = (q - a).dot(&(b - a)) >= 0.0 && (q - b).dot(&(a - b)) >= 0.0;
+            if within && meeting.d * corner.half_sin > 0.0 {
+                range.add(meeting.d);
+            }
+        }
+    }
+
+    fn part(&self, v: &Vertex) -> Point2 {
+        self.stations.plane.to_part(v.point())
+    }
+
+    fn path(&self, a: &Vertex, b: &Vertex) -> Path {
+        match self.stations.plane {
+            Plane::Xy { .. } => Path::Line { from: self.part(a), to: self.part(b) },
+            Plane::Polar { step, angle_step } => {
+                let polar = |v: &Vertex| (v.point().x * step, v.point().y * angle_step * math::DEG);
+                Path::Spiral { from: polar(a), to: polar(b) }
+            }
+        }
+    }
+
+    /// The curve's point nearest to a vertex, and the signed distance there.
+    fn foot(&self, v: &Vertex) -> Foot {
+        let n = self.stations.stations.len();
+        let p = self.part(v);
+        let before = &self.stations.stations[(v.next + n - 1) % n];
+        let mut best = self.foot_on(p, before.span, before.u);
+        for corner in &self.stations.corners {
+            let reach = (p - corner.point).norm();
+            if reach > 4.0 * self.tube.left.max(self.tube.right) {
+                continue;
+            }
+            let inner = (p - corner.point).dot(&corner.bisector());
+            let d = reach * inner.signum();
+            for end in [corner.first, corner.last] {
+                let s = &self.stations.stations[end % n];
+                best = nearer(best, self.foot_on(p, s.span, s.u));
+            }
+            best = nearer(best, Some(Foot { u: None, span: before.span, d }));
+        }
+        best.unwrap_or_else(|| {
+            let d = (p - before.frenet.p).dot(&before.frenet.n());
+            Foot { u: None, span: before.span, d }
+        })
+    }
+
+    fn foot_on(&self, p: Point2, span: usize, guess: f64) -> Option<Foot> {
+        let breaks = self.tube.curve.breaks();
+        let u = (*breaks.get(span)?, *breaks.get(span + 1)?);
+        foot(self.tube.curve, span, p, u, guess.clamp(u.0, u.1)).map(|(u, d)| Foot { u: Some(u), span, d })
+    }
+}
+
+/// The foot of a vertex on the curve.
+#[derive(Debug, Clone, Copy)]
+struct Foot {
+    /// Parameter, unless a corner is nearest.
+    u: Option<f64>,
+    span: usize,
+    /// Signed distance, mm.
+    d: f64,
+}
+
+fn nearer(a: Option<Foot>, b: Option<Foot>) -> Option<Foot> {
+    match (a, b) {
+        (Some(a), Some(b)) if b.d.abs() < a.d.abs() => Some(b),
+        (Some(a), _) => Some(a),
+        (None, b) => b,
+    }
+}
+
+/// Of two closed chains the one with fewer links, then with the shorter last link.
+fn better(a: &[Vertex], b: &[Vertex]) -> bool {
+    (a.len() as f64, fraction(a)) < (b.len() as f64, fraction(b))
+}
+
+/// Links a chain would need if its last link, which is shorter than it could be, counted as a part.
+fn fraction(vertices: &[Vertex]) -> f64 {
+    let links = vertices.len() - 1;
+    let (first, last) = (vertices[0].next as f64, vertices[links].next as f64);
+    if links < 2 {
+        return links as f64;
+    }
+    let whole = (links - 1) as f64;
+    let before = vertices[links - 1].next as f64;
+    let average = (before - first) / whole;
+    if average > 0.0 { whole + ((last - before) / average).clamp(0.05, 1.0) } else { links as f64 }
+}
+
+/// A vertex of a later lap on the first lap.
+fn unwind(mut v: Vertex, gates: &Gates) -> Vertex {
+    let lap = rounded(gates.lap);
+    while v.next >= gates.len() {
+        v.next -= gates.len();
+        v.at = [v.at[0] - lap[0], v.at[1] - lap[1]];
+    }
+    v
+}
+
+fn rounded(v: Vec2) -> [i64; 2] {
+    [v.x.round() as i64, v.y.round() as i64]
+}
