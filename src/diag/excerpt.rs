@@ -79,14 +79,14 @@ impl Clipped {
     }
 }
 
-/// The lines on which labels start or end, with the first byte that is labelled there.
+/// The lines on which labels start or end, with the byte that must be seen there: that of the first label, which
+/// is the primary one where it is in this file.
 fn lines_concerned(file: &SourceFile, labels: &[&Label]) -> BTreeMap<usize, usize> {
     let mut lines = BTreeMap::new();
     for label in labels {
         let bytes = snapped(&file.text, label.span);
         for byte in [bytes.start, bytes.end] {
-            let first = lines.entry(line_of(file, byte)).or_insert(byte);
-            *first = byte.min(*first);
+            lines.entry(line_of(file, byte)).or_insert(byte);
         }
     }
     lines
