@@ -3,12 +3,15 @@
 //! [`build`] runs every stage as far as it can and hands back every stage's value, for whoever wants to print
 //! it. What may be written to a file is [`Output::proven`], which only `verify` can make.
 
+use std::sync::{Mutex, PoisonError};
+
 use crate::cl::Cl;
 use crate::diag::codes::command as codes;
 use crate::diag::{Diagnostic, Severity, Sink};
 use crate::ir;
 use crate::source::{FileError, FileId, FileProvider, SourceMap};
 use crate::syntax::{self, ast};
+use crate::target::TargetProgram;
 
 /// What to build.
 #[derive(Debug, Clone, Default)]
@@ -36,9 +39,57 @@ pub struct Build {
     pub ir: Option<ir::Program>,
     /// Its cutter location data.
     pub cl: Option<Cl>,
+    /// One for every post, in the order asked for.
+    pub outputs: Vec<Output>,
+    /// Names of all files that were read, sources, tables and post files, in order of first reading.
+    pub inputs: Vec<String>,
+}
+
+/// What came of one post.
+#[derive(Debug)]
+pub struct Output {
+    /// The post's name, as it stands in file names.
+    pub post: String,
+    /// The extension of its programs, without the point.
+    pub extension: String,
+    /// The lowered program.
+    pub target: Option<TargetProgram>,
+}
+
+impl Output {
+    /// The NC text, when it has been proven.
+    #[must_use]
+    pub fn text(&self) -> Option<&str> {
+        None
+    }
+    /// The certificate as JSON.
+    #[must_use]
+    pub fn certificate_json(&self) -> serde_json::Value {
+        serde_json::Value::Null
+    }
+    /// The certificate in one line.
+    #[must_use]
+    pub fn summary(&self) -> String {
+        String::new()
+    }
+    /// The lowered program as text.
+    #[must_use]
+    pub fn target_text(&self) -> Option<String> {
+        None
+    }
 }
 
 impl Build {
+    /// The evaluated program as text.
+    #[must_use]
+    pub fn ir_text(&self) -> Option<String> {
+        None
+    }
+    /// The cutter location data as APT CL text.
+    #[must_use]
+    pub fn cl_text(&self) -> Option<String> {
+        None
+    }
     /// Whether an error is among the diagnostics.
     #[must_use]
     pub fn has_errors(&self) -> bool {
@@ -51,15 +102,34 @@ impl Build {
 pub fn build(main: &str, files: &dyn FileProvider, options: &Options) -> Build {
     let mut build = Build::default();
     let mut sink = Sink::default();
+    let files = Recorder { files, names: Mutex::default() };
     match files.read(None, main) {
         Ok((name, text)) => {
             let file = build.sources.add(name, text);
-            front(&mut build, file, files, options, &mut sink);
+            front(&mut build, file, &files, options, &mut sink);
         }
         Err(error) => sink.push(unreadable(main, &error)),
     }
+    build.inputs = files.names.into_inner().unwrap_or_else(PoisonError::into_inner);
     build.diagnostics = in_source_order(sink.into_items());
     build
+}
+
+/// Hands files on and remembers their names.
+struct Recorder<'a> {
+    files: &'a dyn FileProvider,
+    names: Mutex<Vec<String>>,
+}
+
+impl FileProvider for Recorder<'_> {
+    fn read(&self, from: Option<&str>, path: &str) -> Result<(String, String), FileError> {
+        let (name, text) = self.files.read(from, path)?;
+        let mut names = self.names.lock().unwrap_or_else(PoisonError::into_inner);
+        if !names.contains(&name) {
+            names.push(name.clone());
+        }
+        Ok((name, text))
+    }
 }
 
 /// Source text to cutter location data.
@@ -91,6 +161,10 @@ pub fn unreadable(path: &str, error: &FileError) -> Diagnostic {
             format!("{path} is not UTF-8: the byte at offset {byte} is not part of any character"),
         )
         .help("save the file as UTF-8"),
+        FileError::TooLarge(limit) => {
+            Diagnostic::global(&codes::TOO_LARGE, format!("{path} has more than {limit} bytes"))
+                .help("put bulk data into CSV files")
+        }
         FileError::Other(reason) => {
             Diagnostic::global(&codes::CANNOT_READ, format!("{path} cannot be read: {reason}"))
         }

@@ -1,3 +1,7 @@
 //! The `partwright` command.
 
-fn main() {}
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    partwright::cli::run()
+}

@@ -108,6 +108,8 @@ pub enum FileError {
     OutsideRoot,
     /// The bytes are not UTF-8; the offset of the first bad one.
     NotUtf8(usize),
+    /// The file is larger than this many bytes.
+    TooLarge(u64),
     /// Anything else, in the system's words.
     Other(String),
 }

@@ -1,0 +1,199 @@
+//! The command line's grammar.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+use crate::diag::render::Format;
+
+/// A compiler for part programs: APT-like source in, proven G-code out.
+#[derive(Debug, Parser)]
+#[command(name = "partwright", version, propagate_version = true, after_help = EXAMPLES)]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub verb: Verb,
+    /// How messages are written to standard error.
+    #[arg(long, value_enum, default_value_t = MessageFormat::Human, global = true, value_name = "FORMAT")]
+    pub message_format: MessageFormat,
+    /// Colour in messages; `auto`: on a terminal, unless NO_COLOR is set.
+    #[arg(long, value_enum, default_value_t = Color::Auto, global = true, value_name = "WHEN")]
+    pub color: Color,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  partwright build plate.apt                        for the machines that the program names
+  partwright build plate.apt --post linuxcnc        writes plate.linuxcnc.ngc beside plate.apt
+  partwright build plate.apt --post fanuc -o O1.nc  names the output; `-o -` is standard output
+  partwright build *.apt --post grbl --out-dir nc   several programs, one directory
+  partwright build plate.apt -D STROKE=25mm         gives a PARAM of the program another value
+  partwright check plate.apt                        all checks, no output
+  partwright explain E0401                          what a message means and how to mend it
+
+Exit status: 0 done, 1 errors in the program, 2 usage or file trouble, 3 a golden file differs,
+4 the emitted program failed its proof, 101 a fault of partwright itself.";
+
+/// The verbs.
+#[derive(Debug, Subcommand)]
+pub enum Verb {
+    /// Compile programs and write proven NC programs.
+    #[command(after_help = BUILD_EXAMPLES)]
+    Build(BuildArgs),
+    /// Run all checks of programs and write nothing.
+    Check(CheckArgs),
+    /// Print the page of a diagnostic code, or list all codes.
+    Explain(ExplainArgs),
+    /// Draw a cam, its pitch curve and path, or its diagrams.
+    Plot(PlotArgs),
+}
+
+const BUILD_EXAMPLES: &str = "\
+Each NC program is called STEM.POST.EXT, with the controller's own extension, and lies beside its source or in --out-dir.
+Nothing is written before every program of the command has been proven; a failed build leaves old files as they were.
+
+Examples:
+  partwright build plate.apt --post linuxcnc --post fanuc --out-dir nc
+  partwright build plate.apt --post shop/mill.post.toml -o plate.nc --report plate.json
+  partwright build plate.apt --post grbl -o - | grep G1
+  partwright build plate.apt --emit cl              prints the cutter location data
+  partwright build plate.apt --post linuxcnc --deps plate.d --deps-format make";
+
+/// Arguments of `build`.
+#[derive(Debug, Args)]
+pub struct BuildArgs {
+    /// Program files; `-` is standard input.
+    #[arg(required = true, value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+    /// Controller: a built-in post or a file NAME.post.toml; may be given several times. Without it the
+    /// program's MACHIN statements decide.
+    #[arg(long, value_name = "NAME|FILE")]
+    pub post: Vec<String>,
+    /// The output file, when there is only one; `-` is standard output.
+    #[arg(short, long, value_name = "FILE", conflicts_with = "out_dir")]
+    pub output: Option<PathBuf>,
+    /// Directory for the outputs; made when it does not exist.
+    #[arg(long, value_name = "DIR")]
+    pub out_dir: Option<PathBuf>,
+    /// What to produce: ast, ir, cl and target are printed, or written to --out-dir.
+    #[arg(long, value_enum, value_delimiter = ',', default_value = "nc", value_name = "STAGES")]
+    pub emit: Vec<Stage>,
+    /// Write the certificates of all NC programs as JSON (docs/schema/report.schema.json).
+    #[arg(long, value_name = "FILE")]
+    pub report: Option<PathBuf>,
+    /// Write the files that were read and the files that are made.
+    #[arg(long, value_name = "FILE")]
+    pub deps: Option<PathBuf>,
+    /// The form of --deps.
+    #[arg(long, value_enum, default_value_t = DepsFormat::Make, value_name = "FORMAT", requires = "deps")]
+    pub deps_format: DepsFormat,
+    /// What all verbs that compile take.
+    #[command(flatten)]
+    pub common: CommonArgs,
+}
+
+/// What all verbs that compile take.
+#[derive(Debug, Args)]
+pub struct CommonArgs {
+    /// Give the PARAM called NAME another value, as it would stand in the program.
+    #[arg(short = 'D', long = "define", value_name = "NAME=VALUE")]
+    pub define: Vec<String>,
+    /// Make a warning code (or `warnings`, all of them) an error.
+    #[arg(long, value_name = "CODE")]
+    pub deny: Vec<String>,
+    /// Threads to work with; the result does not depend on it.
+    #[arg(short = 'j', long = "jobs", value_name = "N")]
+    pub jobs: Option<usize>,
+}
+
+/// Arguments of `check`.
+#[derive(Debug, Args)]
+pub struct CheckArgs {
+    /// Program files; `-` is standard input.
+    #[arg(required = true, value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+    /// What all verbs that compile take.
+    #[command(flatten)]
+    pub common: CommonArgs,
+}
+
+/// Arguments of `explain`.
+#[derive(Debug, Args)]
+pub struct ExplainArgs {
+    /// A code such as E0401; without one all codes are listed.
+    #[arg(value_name = "CODE")]
+    pub code: Option<String>,
+}
+
+/// Arguments of `plot`.
+#[derive(Debug, Args)]
+pub struct PlotArgs {
+    /// The program file.
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+    /// What to draw.
+    #[arg(long, value_name = "WHAT", default_value = "cam")]
+    pub what: String,
+    /// The picture, .svg or .png; `-` is standard output (SVG).
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// What all verbs that compile take.
+    #[command(flatten)]
+    pub common: CommonArgs,
+}
+
+/// Stages that can be printed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Stage {
+    /// The syntax tree.
+    Ast,
+    /// The evaluated program.
+    Ir,
+    /// Cutter location data, APT CL text.
+    Cl,
+    /// The program of one controller, before it is spelled.
+    Target,
+    /// The NC program.
+    Nc,
+}
+
+/// Forms of the dependency file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum DepsFormat {
+    /// A rule for make and ninja.
+    Make,
+    /// An object with `inputs` and `outputs`.
+    Json,
+}
+
+/// Forms of messages.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum MessageFormat {
+    /// With the source lines.
+    Human,
+    /// `file:line:column: error[E0101]: message`.
+    Short,
+    /// One JSON object a line (docs/diagnostics-json.md).
+    Json,
+}
+
+impl From<MessageFormat> for Format {
+    fn from(format: MessageFormat) -> Self {
+        match format {
+            MessageFormat::Human => Format::Human,
+            MessageFormat::Short => Format::Short,
+            MessageFormat::Json => Format::Json,
+        }
+    }
+}
+
+/// When messages are coloured.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Color {
+    /// On a terminal, unless NO_COLOR is set.
+    Auto,
+    /// Always.
+    Always,
+    /// Never.
+    Never,
+}

@@ -1,0 +1,293 @@
+//! `partwright build` and `partwright check`.
+
+use std::path::{Path, PathBuf};
+
+use rayon::prelude::*;
+
+use super::args::{BuildArgs, CheckArgs, CommonArgs, Stage};
+use super::disk::{Disk, STDIN};
+use super::messages::{self, Messages, to_stderr};
+use super::output::{self, Product};
+use super::progress::Progress;
+use super::{Status, deps, report};
+use crate::diag::codes::{command as codes, verification};
+use crate::diag::{Diagnostic, Severity};
+use crate::driver::{self, Build, Output};
+use crate::syntax;
+
+/// One source file and what came of it.
+pub struct Compiled {
+    /// As named on the command line.
+    pub path: PathBuf,
+    /// The result.
+    pub build: Build,
+}
+
+impl Compiled {
+    /// File name without extension.
+    pub fn stem(&self) -> String {
+        if self.path.as_os_str() == STDIN {
+            return "stdin".to_owned();
+        }
+        self.path.file_stem().map_or_else(|| "program".to_owned(), |s| s.to_string_lossy().into_owned())
+    }
+}
+
+/// Compiles and writes.
+pub fn build(args: &BuildArgs, messages: Messages) -> Result<Status, Diagnostic> {
+    let mut options = driver_options(&args.common)?;
+    options.posts.clone_from(&args.post);
+    options.keep_ast = args.emit.contains(&Stage::Ast);
+    options.check_only = !args.emit.iter().any(|s| matches!(s, Stage::Target | Stage::Nc));
+    let compiled = compile(&args.files, &options, &args.common, messages)?;
+    let status = show(&compiled, messages);
+    let planned = plan_products(&compiled, args)?;
+    if let Some(path) = &args.deps {
+        output::write_all(&[deps::product(path, args.deps_format, &compiled, &planned)])?;
+    }
+    if status != Status::Done {
+        return Ok(status);
+    }
+    let mut products: Vec<Product> = planned.iter().filter_map(|p| p.make(&compiled)).collect();
+    if let Some(path) = &args.report {
+        products.push(report::product(path, &compiled, &planned)?);
+    }
+    if let Some(folder) = &args.out_dir {
+        output::make_folder(folder)?;
+    }
+    output::write_all(&products)?;
+    if messages.for_people() && args.emit.contains(&Stage::Nc) {
+        to_stderr(&report::summary(&compiled, &planned));
+    }
+    Ok(Status::Done)
+}
+
+/// Checks only.
+pub fn check(args: &CheckArgs, messages: Messages) -> Result<Status, Diagnostic> {
+    let options = driver::Options { check_only: true, ..driver_options(&args.common)? };
+    let compiled = compile(&args.files, &options, &args.common, messages)?;
+    Ok(show(&compiled, messages))
+}
+
+/// What the common arguments say; sets the number of threads.
+pub fn driver_options(common: &CommonArgs) -> Result<driver::Options, Diagnostic> {
+    messages::check_deny(&common.deny)?;
+    if let Some(jobs) = common.jobs {
+        set_threads(jobs)?;
+    }
+    let defines = common.define.iter().map(|d| define(d)).collect::<Result<_, _>>()?;
+    Ok(driver::Options { defines, ..driver::Options::default() })
+}
+
+fn set_threads(jobs: usize) -> Result<(), Diagnostic> {
+    let bad = |why: String| Diagnostic::global(&codes::BAD_THREADS, format!("-j {jobs}: {why}"));
+    if jobs == 0 {
+        return Err(bad("at least one thread is needed".to_owned()));
+    }
+    rayon::ThreadPoolBuilder::new().num_threads(jobs).build_global().map_err(|e| bad(e.to_string()))
+}
+
+fn define(given: &str) -> Result<(String, String), Diagnostic> {
+    match given.split_once('=') {
+        Some((name, value)) if !name.trim().is_empty() && !value.trim().is_empty() => {
+            Ok((name.trim().to_owned(), value.trim().to_owned()))
+        }
+        Some((name, _)) if name.trim().is_empty() => {
+            Err(Diagnostic::global(&codes::BAD_DEFINE, format!("-D {given} has no name"))
+                .help("write -D NAME=VALUE"))
+        }
+        _ => Err(Diagnostic::global(&codes::BAD_DEFINE, format!("-D {given} has no value"))
+            .help("write -D NAME=VALUE")),
+    }
+}
+
+/// Compiles every file, in parallel when there are several; the order stays.
+pub fn compile(
+    files: &[PathBuf],
+    options: &driver::Options,
+    common: &CommonArgs,
+    messages: Messages,
+) -> Result<Vec<Compiled>, Diagnostic> {
+    let what = match files {
+        [only] => format!("compiling {}", only.display()),
+        _ => format!("compiling {} programs", files.len()),
+    };
+    let progress = messages.for_people().then(|| Progress::start(what));
+    let one = |path: &PathBuf| {
+        let mut build = driver::build(&path.to_string_lossy(), &Disk::for_main(path), options);
+        messages::deny(&mut build.diagnostics, &common.deny);
+        Compiled { path: path.clone(), build }
+    };
+    let compiled = if let [only] = files { vec![one(only)] } else { files.par_iter().map(one).collect() };
+    drop(progress);
+    Ok(compiled)
+}
+
+/// Shows all messages; the worst decides how the run ends.
+pub fn show(compiled: &[Compiled], messages: Messages) -> Status {
+    let mut status = Status::Done;
+    for one in compiled {
+        messages.show(&one.build.diagnostics, &one.build.sources);
+        status = worse(status, status_of(&one.build.diagnostics));
+    }
+    status
+}
+
+/// File trouble comes before errors of a program, and those before what only the proof finds.
+fn worse(a: Status, b: Status) -> Status {
+    let rank = |s: Status| match s {
+        Status::Done => 0,
+        Status::NotProven => 1,
+        Status::Errors => 2,
+        Status::Trouble => 3,
+        Status::Fault => 4,
+    };
+    if rank(a) >= rank(b) { a } else { b }
+}
+
+fn status_of(diagnostics: &[Diagnostic]) -> Status {
+    diagnostics.iter().filter(|d| d.severity == Severity::Error).map(status_of_one).fold(Status::Done, worse)
+}
+
+fn status_of_one(diagnostic: &Diagnostic) -> Status {
+    let id = diagnostic.code.id;
+    let of_command = is_trouble(id) && diagnostic.primary.is_none();
+    if of_command {
+        Status::Trouble
+    } else if verification::ALL.iter().any(|c| c.id == id) {
+        Status::NotProven
+    } else {
+        Status::Errors
+    }
+}
+
+/// Codes of files, the command line and post files.
+fn is_trouble(id: &str) -> bool {
+    use crate::diag::codes::{command, post};
+    command::ALL.iter().chain(post::ALL).any(|c| c.id == id)
+}
+
+/// Something that this run will make.
+#[derive(Debug)]
+pub struct Planned {
+    /// Index of the source.
+    pub source: usize,
+    /// Index into [`Build::outputs`] for what belongs to one post.
+    pub output: Option<usize>,
+    /// Stage.
+    pub stage: Stage,
+    /// Where to.
+    pub path: PathBuf,
+}
+
+impl Planned {
+    fn make(&self, compiled: &[Compiled]) -> Option<Product> {
+        let build = &compiled.get(self.source)?.build;
+        let output = self.output.and_then(|i| build.outputs.get(i));
+        let text = text_of(self.stage, build, output)?;
+        Some(Product { path: self.path.clone(), bytes: text.into_bytes() })
+    }
+}
+
+/// The text of a stage.
+fn text_of(stage: Stage, build: &Build, output: Option<&Output>) -> Option<String> {
+    match stage {
+        Stage::Ast => build.ast.as_ref().map(|ast| syntax::print::print(ast, &build.sources)),
+        Stage::Ir => build.ir_text(),
+        Stage::Cl => build.cl_text(),
+        Stage::Target => output?.target_text(),
+        Stage::Nc => output?.text().map(str::to_owned),
+    }
+}
+
+/// Names everything that is to be made, and refuses clashes.
+fn plan_products(compiled: &[Compiled], args: &BuildArgs) -> Result<Vec<Planned>, Diagnostic> {
+    let mut planned = Vec::new();
+    for (source, one) in compiled.iter().enumerate() {
+        for &stage in &args.emit {
+            let outputs: Vec<Option<usize>> = match stage {
+                Stage::Ast | Stage::Ir | Stage::Cl => vec![None],
+                Stage::Target | Stage::Nc => (0..one.build.outputs.len()).map(Some).collect(),
+            };
+            for output in outputs {
+                let path = destination(one, output, stage, args);
+                planned.push(Planned { source, output, stage, path });
+            }
+        }
+    }
+    if let Some(path) = &args.output
+        && planned.len() > 1
+        && !output::is_stdout(path)
+    {
+        let message = format!("-o names one file, but this command makes {}", planned.len());
+        return Err(Diagnostic::global(&codes::ONE_OUTPUT, message).help("name a directory with --out-dir"));
+    }
+    refuse_clashes(&planned, compiled, args)?;
+    Ok(planned)
+}
+
+fn destination(one: &Compiled, output: Option<usize>, stage: Stage, args: &BuildArgs) -> PathBuf {
+    if let Some(path) = &args.output {
+        return path.clone();
+    }
+    let post = output.and_then(|i| one.build.outputs.get(i));
+    let file = match (stage, post) {
+        (Stage::Nc, Some(post)) => format!("{}.{}.{}", one.stem(), post.post, post.extension),
+        (Stage::Target, Some(post)) => format!("{}.{}.target", one.stem(), post.post),
+        (stage, _) => format!("{}.{}", one.stem(), stage_name(stage)),
+    };
+    match &args.out_dir {
+        Some(folder) => folder.join(file),
+        None if stage != Stage::Nc => PathBuf::from("-"),
+        None if one.path.as_os_str() == STDIN => PathBuf::from(file),
+        None => one.path.with_file_name(file),
+    }
+}
+
+fn stage_name(stage: Stage) -> &'static str {
+    match stage {
+        Stage::Ast => "ast",
+        Stage::Ir => "ir",
+        Stage::Cl => "cl",
+        Stage::Target => "target",
+        Stage::Nc => "nc",
+    }
+}
+
+/// Two products with one name, or a product with the name of a file that was read.
+fn refuse_clashes(planned: &[Planned], compiled: &[Compiled], args: &BuildArgs) -> Result<(), Diagnostic> {
+    let extra = args.report.iter().chain(&args.deps);
+    let mut targets: Vec<&Path> = planned.iter().map(|p| p.path.as_path()).chain(extra.map(PathBuf::as_path)).collect();
+    targets.retain(|p| !output::is_stdout(p) && !is_device(p));
+    let mut names: Vec<PathBuf> = targets.iter().map(|p| real(p)).collect();
+    names.sort();
+    if let Some([twice, _]) = names.array_windows::<2>().find(|[a, b]| a == b) {
+        let shown = targets.iter().find(|p| real(p) == *twice).copied().unwrap_or(twice);
+        return Err(clash(shown, "would be written twice"));
+    }
+    let sources = compiled.iter().flat_map(|c| c.build.sources.iter().map(|(_, f)| PathBuf::from(&f.name)));
+    let sources: Vec<PathBuf> = sources.map(|p| real(&p)).collect();
+    match targets.iter().find(|p| sources.contains(&real(p))) {
+        Some(path) => Err(clash(path, "is a source file; it would be overwritten")),
+        None => Ok(()),
+    }
+}
+
+fn clash(path: &Path, what: &str) -> Diagnostic {
+    Diagnostic::global(&codes::OUTPUT_CLASH, format!("{} {what}", path.display()))
+        .help("name other files with -o, or other directories with --out-dir")
+}
+
+fn is_device(path: &Path) -> bool {
+    std::fs::metadata(path).is_ok_and(|m| !m.is_file() && !m.is_dir())
+}
+
+/// The real path of a file that need not exist yet.
+fn real(path: &Path) -> PathBuf {
+    if let Ok(real) = path.canonicalize() {
+        return real;
+    }
+    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_path_buf());
+    path.file_name().map_or_else(|| folder.clone(), |name| folder.join(name))
+}

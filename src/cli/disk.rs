@@ -1,0 +1,118 @@
+//! Files on disk, as the compiler may read them.
+//!
+//! A program may read files of its project only: below the nearest directory with a `partwright.toml` or a
+//! `.git` above the main file, or else below the main file's directory. Links are followed before the check.
+//! What the command line names (`from` is `None`) may lie anywhere.
+
+use std::collections::BTreeMap;
+use std::io::Read;
+use std::path::{Component, Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+
+use crate::source::{FileError, FileProvider};
+
+/// The largest file that is read, bytes.
+pub const LARGEST: u64 = 64 * 1024 * 1024;
+/// The name of standard input on the command line.
+pub const STDIN: &str = "-";
+/// Its name in messages.
+const STDIN_NAME: &str = "<stdin>";
+
+/// The files that one program may read.
+#[derive(Debug)]
+pub struct Disk {
+    root: PathBuf,
+    /// Names in messages by real path: the same file has the same name however it is reached.
+    names: Mutex<BTreeMap<PathBuf, String>>,
+}
+
+impl Disk {
+    /// For the program in `main`.
+    #[must_use]
+    pub fn for_main(main: &Path) -> Self {
+        let folder = main.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_path_buf());
+        let marked = |p: &&Path| p.join("partwright.toml").is_file() || p.join(".git").exists();
+        let root = folder.ancestors().find(marked).unwrap_or(&folder).to_path_buf();
+        Disk { root, names: Mutex::default() }
+    }
+
+    fn display_name(&self, real: PathBuf, path: &Path) -> String {
+        let mut names = self.names.lock().unwrap_or_else(PoisonError::into_inner);
+        names.entry(real).or_insert_with(|| tidy(path)).clone()
+    }
+}
+
+impl FileProvider for Disk {
+    fn read(&self, from: Option<&str>, path: &str) -> Result<(String, String), FileError> {
+        if from.is_none() && path == STDIN {
+            let text = decode(read_limited(std::io::stdin().lock())?)?;
+            return Ok((STDIN_NAME.to_owned(), text));
+        }
+        let folder = from.and_then(|f| Path::new(f).parent()).unwrap_or(Path::new(""));
+        let path = folder.join(path);
+        let real = path.canonicalize().map_err(|e| system(&e))?;
+        if from.is_some() && !real.starts_with(&self.root) {
+            return Err(FileError::OutsideRoot);
+        }
+        if real.is_dir() {
+            return Err(FileError::Other("it is a directory".to_owned()));
+        }
+        let file = std::fs::File::open(&real).map_err(|e| system(&e))?;
+        let text = decode(read_limited(file)?)?;
+        Ok((self.display_name(real, &path), text))
+    }
+}
+
+fn read_limited(source: impl Read) -> Result<Vec<u8>, FileError> {
+    let mut bytes = Vec::new();
+    source.take(LARGEST + 1).read_to_end(&mut bytes).map_err(|e| system(&e))?;
+    if bytes.len() as u64 > LARGEST {
+        return Err(FileError::TooLarge(LARGEST));
+    }
+    Ok(bytes)
+}
+
+fn decode(bytes: Vec<u8>) -> Result<String, FileError> {
+    String::from_utf8(bytes).map_err(|e| FileError::NotUtf8(e.utf8_error().valid_up_to()))
+}
+
+fn system(error: &std::io::Error) -> FileError {
+    match error.kind() {
+        std::io::ErrorKind::NotFound => FileError::NotFound,
+        _ => FileError::Other(reason(error)),
+    }
+}
+
+/// The system's words without its error number.
+pub(super) fn reason(error: &std::io::Error) -> String {
+    let text = error.to_string();
+    match text.find(" (os error") {
+        Some(end) => text.get(..end).unwrap_or(&text).to_owned(),
+        None => text,
+    }
+}
+
+/// A path without `.` and without `x/..`, with `/` between its parts.
+fn tidy(path: &Path) -> String {
+    let mut parts: Vec<Component<'_>> = Vec::new();
+    for part in path.components() {
+        match part {
+            Component::CurDir => {}
+            Component::ParentDir if matches!(parts.last(), Some(Component::Normal(_))) => drop(parts.pop()),
+            part => parts.push(part),
+        }
+    }
+    parts.iter().collect::<PathBuf>().to_string_lossy().replace('\\', "/")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_tidied() {
+        assert_eq!(tidy(Path::new("./a/../b/./c.apt")), "b/c.apt");
+        assert_eq!(tidy(Path::new("../x.apt")), "../x.apt");
+    }
+}
