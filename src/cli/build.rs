@@ -257,7 +257,8 @@ fn stage_name(stage: Stage) -> &'static str {
 /// Two products with one name, or a product with the name of a file that was read.
 fn refuse_clashes(planned: &[Planned], compiled: &[Compiled], args: &BuildArgs) -> Result<(), Diagnostic> {
     let extra = args.report.iter().chain(&args.deps);
-    let mut targets: Vec<&Path> = planned.iter().map(|p| p.path.as_path()).chain(extra.map(PathBuf::as_path)).collect();
+    let mut targets: Vec<&Path> =
+        planned.iter().map(|p| p.path.as_path()).chain(extra.map(PathBuf::as_path)).collect();
     targets.retain(|p| !output::is_stdout(p) && !is_device(p));
     let mut names: Vec<PathBuf> = targets.iter().map(|p| real(p)).collect();
     names.sort();

@@ -17,12 +17,14 @@ struct Dependencies {
 
 /// The dependency file of a run.
 pub fn product(path: &Path, format: DepsFormat, compiled: &[Compiled], planned: &[Planned]) -> Product {
-    let mut inputs: Vec<String> =
-        compiled.iter().flat_map(|c| c.build.inputs.iter().cloned()).collect();
+    let mut inputs: Vec<String> = compiled.iter().flat_map(|c| c.build.inputs.iter().cloned()).collect();
     inputs.sort();
     inputs.dedup();
-    let outputs: Vec<String> =
-        planned.iter().filter(|p| !is_stdout(&p.path)).map(|p| p.path.to_string_lossy().into_owned()).collect();
+    let outputs: Vec<String> = planned
+        .iter()
+        .filter(|p| !is_stdout(&p.path))
+        .map(|p| p.path.to_string_lossy().into_owned())
+        .collect();
     let text = match format {
         DepsFormat::Make => make(&inputs, &outputs),
         DepsFormat::Json => json(Dependencies { version: 1, inputs, outputs }),

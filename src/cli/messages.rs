@@ -63,7 +63,8 @@ impl Messages {
 
 fn summary(errors: usize, warnings: usize) -> String {
     let plural = |n: usize, word: &str| format!("{n} {word}{}", if n == 1 { "" } else { "s" });
-    let warnings = if warnings == 0 { String::new() } else { format!(" and {}", plural(warnings, "warning")) };
+    let warnings =
+        if warnings == 0 { String::new() } else { format!(" and {}", plural(warnings, "warning")) };
     format!("{}{warnings}; nothing was written\n", plural(errors, "error"))
 }
 
