@@ -4,3 +4,4 @@
 //! deviation, or refused. Curve moves are fitted here ([`fit`]), in their band and on the controller's grid.
 
 pub mod fit;
+pub mod place;

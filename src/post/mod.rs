@@ -1,1 +1,30 @@
 //! Target program to text: dialect files and one fast table-driven writer.
+//!
+//! # Contract
+//! - A dialect is data: a `*.post.toml` file that inherits from others ([`schema`] is the table of its keys,
+//!   [`load`] resolves it). User files and built-in ones go the same way.
+//! - The writer prints the integers of the target program and nothing else: no number is computed here, and all
+//!   of them are printed by [`number`].
+//! - Motion runs on flat tables ([`pattern`]); start, end, tool change and operations go through templates
+//!   ([`template`]), motion never does.
+//! - User text leaves through [`comment`] and cannot get out of its comment; `INSERT` is verbatim, one line.
+
+mod check;
+pub mod comment;
+pub mod dialect;
+mod events;
+mod load;
+pub mod number;
+pub mod pattern;
+pub mod schema;
+mod table;
+pub mod template;
+pub mod tree;
+mod write;
+mod writer;
+
+mod capabilities;
+
+pub use dialect::Dialect;
+pub use load::{builtin_names, builtin_text, load, load_with};
+pub use write::{Written, write};

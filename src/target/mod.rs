@@ -114,6 +114,14 @@ pub struct Capabilities {
     pub travel: [Option<(f64, f64)>; 3],
     /// Largest numbers that fit the words.
     pub ranges: Ranges,
+    /// Mist coolant can be switched.
+    pub mist: bool,
+    /// Flood coolant can be switched.
+    pub flood: bool,
+    /// Optional stop.
+    pub optional_stop: bool,
+    /// Slowest and fastest spindle speed, rev/min, where declared.
+    pub spindle: Option<(f64, f64)>,
 }
 
 /// Largest printed magnitudes of words, in their steps.

@@ -9,5 +9,127 @@ pub const NOT_ON_THIS_CONTROLLER: Code = Code {
     page: include_str!("../../../docs/diagnostics/E0601.md"),
 };
 
+/// the path cannot be expressed within the tolerance.
+pub const CANNOT_FIT: Code = Code {
+    id: "E0602",
+    title: "the path cannot be expressed within the tolerance",
+    page: include_str!("../../../docs/diagnostics/E0602.md"),
+};
+
+/// the path leaves the machine's travel.
+pub const OUT_OF_TRAVEL: Code = Code {
+    id: "E0603",
+    title: "the path leaves the machine's travel",
+    page: include_str!("../../../docs/diagnostics/E0603.md"),
+};
+
+/// a number is larger than the controller's word.
+pub const TOO_LARGE: Code = Code {
+    id: "E0604",
+    title: "a number is larger than the controller's word",
+    page: include_str!("../../../docs/diagnostics/E0604.md"),
+};
+
+/// a feed does not fit the controller.
+pub const FEED_RANGE: Code = Code {
+    id: "E0605",
+    title: "a feed does not fit the controller",
+    page: include_str!("../../../docs/diagnostics/E0605.md"),
+};
+
+/// a feed per revolution needs a turning spindle.
+pub const NO_SPINDLE_FOR_FEED: Code = Code {
+    id: "E0606",
+    title: "a feed per revolution needs a turning spindle",
+    page: include_str!("../../../docs/diagnostics/E0606.md"),
+};
+
+/// the spindle cannot turn at this speed.
+pub const SPINDLE_RANGE: Code = Code {
+    id: "E0607",
+    title: "the spindle cannot turn at this speed",
+    page: include_str!("../../../docs/diagnostics/E0607.md"),
+};
+
+/// arcs became lines.
+pub const NO_ARCS: Code = Code {
+    id: "N0601",
+    title: "arcs became lines",
+    page: include_str!("../../../docs/diagnostics/N0601.md"),
+};
+
+/// R-theta without a rotary axis.
+pub const NO_ROTARY: Code = Code {
+    id: "N0602",
+    title: "R-theta without a rotary axis",
+    page: include_str!("../../../docs/diagnostics/N0602.md"),
+};
+
+/// NURBS became arcs or lines.
+pub const NO_NURBS: Code = Code {
+    id: "N0603",
+    title: "NURBS became arcs or lines",
+    page: include_str!("../../../docs/diagnostics/N0603.md"),
+};
+
+/// feed per revolution became feed per minute.
+pub const NO_FEED_PER_REVOLUTION: Code = Code {
+    id: "N0604",
+    title: "feed per revolution became feed per minute",
+    page: include_str!("../../../docs/diagnostics/N0604.md"),
+};
+
+/// a lead became radial.
+pub const RADIAL_LEAD: Code = Code {
+    id: "N0605",
+    title: "a lead became radial",
+    page: include_str!("../../../docs/diagnostics/N0605.md"),
+};
+
+/// no tolerance is left for the control's smoothing.
+pub const PATH_TOLERANCE: Code = Code {
+    id: "N0606",
+    title: "no tolerance is left for the control's smoothing",
+    page: include_str!("../../../docs/diagnostics/N0606.md"),
+};
+
+/// the controller does not have this coolant.
+pub const COOLANT: Code = Code {
+    id: "N0607",
+    title: "the controller does not have this coolant",
+    page: include_str!("../../../docs/diagnostics/N0607.md"),
+};
+
+/// the controller has no optional stop.
+pub const OPTIONAL_STOP: Code = Code {
+    id: "N0608",
+    title: "the controller has no optional stop",
+    page: include_str!("../../../docs/diagnostics/N0608.md"),
+};
+
+/// an arc was split.
+pub const SPLIT_ARC: Code = Code {
+    id: "N0609",
+    title: "an arc was split",
+    page: include_str!("../../../docs/diagnostics/N0609.md"),
+};
+
 /// All codes of this area.
-pub const ALL: &[&Code] = &[&NOT_ON_THIS_CONTROLLER];
+pub const ALL: &[&Code] = &[
+    &NOT_ON_THIS_CONTROLLER,
+    &CANNOT_FIT,
+    &OUT_OF_TRAVEL,
+    &TOO_LARGE,
+    &FEED_RANGE,
+    &NO_SPINDLE_FOR_FEED,
+    &SPINDLE_RANGE,
+    &NO_ARCS,
+    &NO_ROTARY,
+    &NO_NURBS,
+    &NO_FEED_PER_REVOLUTION,
+    &RADIAL_LEAD,
+    &PATH_TOLERANCE,
+    &COOLANT,
+    &OPTIONAL_STOP,
+    &SPLIT_ARC,
+];
