@@ -1,0 +1,139 @@
+//! What a dialect tells lowering.
+
+use super::dialect::{Dialect, FullCircleWords};
+use crate::diag::{Diagnostic, codes, did_you_mean};
+use crate::ir::{Machine, Rotary};
+use crate::target::{
+    Capabilities, FullCircle, Grid, NurbsForm, PathTolerance, Ranges, RotaryAxis, RotaryFeed,
+};
+use crate::units::{Angle, LengthUnit};
+
+/// Options of `MACHIN` that lowering knows; others are texts for templates.
+const SHARE: &str = "SHARE";
+
+impl Dialect {
+    /// What the control can do for a program in `unit`, on the machine that `MACHIN` describes.
+    ///
+    /// # Errors
+    /// A rotary axis that the control does not have, or an option that cannot be understood.
+    pub fn capabilities(&self, unit: LengthUnit, machine: Option<&Machine>) -> Result<Capabilities, Diagnostic> {
+        let spec = &self.spec;
+        let rotary = match machine.and_then(|m| m.rotary) {
+            Some(rotary) => Some(self.rotary(rotary)?),
+            None => None,
+        };
+        Ok(Capabilities {
+            name: self.name.clone(),
+            grid: self.grid(unit),
+            arcs: spec.arcs.enabled,
+            max_sweep: Angle::degrees(spec.arcs.max_sweep).rad(),
+            full_circle: match spec.arcs.full_circle {
+                FullCircleWords::Split => FullCircle::Split(spec.arcs.split),
+                _ => FullCircle::Whole,
+            },
+            radius_range: (spec.arcs.min_radius, spec.arcs.max_radius),
+            radius_tolerance: spec.arcs.radius_tolerance,
+            helix: spec.arcs.helix,
+            nurbs: match spec.nurbs.form.as_str() {
+                "g06.2" => Some(NurbsForm::G062),
+                "g5.2" => Some(NurbsForm::G052),
+                _ => None,
+            },
+            rotary,
+            feed_per_revolution: spec.feed.per_revolution,
+            inverse_time: spec.feed.inverse_time,
+            rotary_feed: match spec.rotary.feed.as_str() {
+                "linear-axes" => RotaryFeed::LinearAxes,
+                _ => RotaryFeed::UnitsAsDegrees,
+            },
+            path_tolerance: self.path_tolerance(machine)?,
+            travel: [spec.limits.x, spec.limits.y, spec.limits.z].map(|r| r.map(|[low, high]| (low, high))),
+            ranges: self.ranges(unit),
+            mist: !spec.coolant.mist.is_empty(),
+            flood: !spec.coolant.flood.is_empty(),
+            optional_stop: !spec.stops.optional.is_empty(),
+            spindle: spec.limits.spindle.map(|[low, high]| (low, high)),
+        })
+    }
+
+    fn grid(&self, unit: LengthUnit) -> Grid {
+        let spec = &self.spec;
+        let linear = spec.decimals("x", unit);
+        Grid {
+            unit,
+            linear_decimals: linear,
+            rotary_decimals: spec.decimals("rotary", unit),
+            centre_decimals: spec.decimals("i", unit).max(linear),
+            feed_decimals: spec.decimals("feed", unit),
+            feed_per_revolution_decimals: spec.decimals("feed-per-revolution", unit),
+            inverse_time_decimals: spec.decimals("feed-inverse-time", unit),
+            feed_scale: spec.feed.scale.of(unit),
+        }
+    }
+
+    fn ranges(&self, unit: LengthUnit) -> Ranges {
+        let spec = &self.spec;
+        let least = |names: &[&str]| names.iter().map(|n| spec.range(n, unit)).min().unwrap_or(i64::MAX);
+        Ranges {
+            linear: least(&["x", "y", "z"]),
+            rotary: least(&["rotary"]),
+            centre: least(&["i", "j"]),
+            feed_per_minute: least(&["feed"]),
+            feed_per_revolution: least(&["feed-per-revolution"]),
+            inverse_time: least(&["feed-inverse-time"]),
+        }
+    }
+
+    fn rotary(&self, wanted: Rotary) -> Result<RotaryAxis, Diagnostic> {
+        let rules = &self.spec.rotary;
+        let default = rules.letter.chars().next().unwrap_or('C');
+        let letter = wanted.letter.unwrap_or(default).to_ascii_uppercase();
+        if !rules.enabled {
+            return Err(Diagnostic::global(
+                &codes::post::MACHINE_OPTION,
+                format!("{} has no rotary axis", self.title()),
+            ));
+        }
+        if !rules.letters.contains(letter) {
+            return Err(Diagnostic::global(
+                &codes::post::MACHINE_OPTION,
+                format!("`{letter}` is no rotary axis of {}; its rotary axes are {}", self.title(), rules.letters),
+            ));
+        }
+        Ok(RotaryAxis { letter, reversed: wanted.reversed })
+    }
+
+    fn path_tolerance(&self, machine: Option<&Machine>) -> Result<Option<PathTolerance>, Diagnostic> {
+        let mut share = self.spec.path_control.share;
+        for (key, value) in machine.iter().flat_map(|m| &m.options) {
+            if key.eq_ignore_ascii_case(SHARE) {
+                share = self.share(value.as_deref().unwrap_or_default())?;
+            } else if !self.spec.options.keys().any(|k| k.eq_ignore_ascii_case(key)) {
+                return Err(self.unknown_option(key));
+            }
+        }
+        let possible = !self.spec.path_control.tolerance.is_empty();
+        Ok((possible && share > 0.0).then_some(PathTolerance { share }))
+    }
+
+    fn share(&self, text: &str) -> Result<f64, Diagnostic> {
+        text.trim().parse().ok().filter(|v| (0.0..=0.9).contains(v)).ok_or_else(|| {
+            Diagnostic::global(
+                &codes::post::MACHINE_OPTION,
+                format!("SHARE is the part of the tolerance that the control may use, from 0 to 0.9, not `{text}`"),
+            )
+        })
+    }
+
+    fn unknown_option(&self, key: &str) -> Diagnostic {
+        let known = || self.spec.options.keys().map(String::as_str).chain([SHARE, "ROTABL"]);
+        let error = Diagnostic::global(
+            &codes::post::MACHINE_OPTION,
+            format!("the post `{}` has no option `{key}`", self.name),
+        );
+        match did_you_mean(key, known()) {
+            Some(near) => error.help(format!("did you mean `{near}`?")),
+            None => error.help(format!("its options are {}", known().collect::<Vec<_>>().join(", "))),
+        }
+    }
+}

@@ -1,0 +1,180 @@
+//! Checks of a resolved dialect that no single key can show.
+
+use super::dialect::Dialect;
+use super::pattern::{self, Item};
+use super::template::Renderer;
+use super::tree;
+use crate::diag::{Code, Diagnostic, codes, did_you_mean};
+use crate::source::Span;
+
+/// Every error of a resolved dialect; `templates`: compile all of them, used or not.
+#[must_use]
+pub fn check(dialect: &Dialect, templates: bool) -> Vec<Diagnostic> {
+    let mut errors = Vec::new();
+    check_patterns(dialect, &mut errors);
+    check_named_words(dialect, &mut errors);
+    check_safe_start(dialect, &mut errors);
+    check_tool_change(dialect, &mut errors);
+    check_rotary(dialect, &mut errors);
+    if templates {
+        check_templates(dialect, &mut errors);
+    }
+    errors
+}
+
+/// A message at the value of `path`, or without a place when no file says it.
+fn at(dialect: &Dialect, path: &str, code: &'static Code, message: String) -> Diagnostic {
+    match tree::find(&dialect.tree, path) {
+        Some(entry) => Diagnostic::new(code, entry.value, message),
+        None => Diagnostic::global(code, message),
+    }
+}
+
+fn check_patterns(dialect: &Dialect, errors: &mut Vec<Diagnostic>) {
+    let patterns = &dialect.spec.patterns;
+    for (name, items) in [("rapid", &patterns.rapid), ("line", &patterns.line), ("arc", &patterns.arc)] {
+        let path = format!("patterns.{name}");
+        for item in items {
+            if let Some(problem) = check_item(dialect, item) {
+                errors.push(at(dialect, &path, &codes::post::BAD_PATTERN, problem));
+            }
+        }
+        let wanted: &[&str] = if name == "arc" && !dialect.spec.arcs.enabled { &[] } else { &["x", "y", "z"] };
+        for axis in wanted.iter().filter(|axis| !items.iter().any(|i| i == *axis)) {
+            let problem = format!("the pattern `{name}` has no word `{axis}`: that axis could never move");
+            errors.push(at(dialect, &path, &codes::post::BAD_PATTERN, problem));
+        }
+        check_collision(dialect, items, &path, errors);
+    }
+}
+
+fn check_item(dialect: &Dialect, item: &str) -> Option<String> {
+    match Item::parse(item) {
+        Ok(Item::Word(slot)) if !dialect.spec.words.contains_key(slot.name()) => {
+            Some(format!("the word `{}` is not in [words]", slot.name()))
+        }
+        Ok(_) => None,
+        Err(()) => {
+            let near = did_you_mean(item, pattern::ITEM_NAMES.iter().copied())
+                .map(|n| format!("; did you mean `{n}`?"))
+                .unwrap_or_default();
+            Some(format!("`{item}` is no item of a pattern{near}; texts start with `=`"))
+        }
+    }
+}
+
+/// Two words of one pattern with the same prefix could not be told apart by the control.
+fn check_collision(dialect: &Dialect, items: &[String], path: &str, errors: &mut Vec<Diagnostic>) {
+    let mut seen: Vec<(&str, &str)> = Vec::new();
+    for item in items {
+        if item == "/" {
+            seen.clear();
+        }
+        let Ok(Item::Word(slot)) = Item::parse(item) else { continue };
+        let Some(word) = dialect.spec.words.get(slot.name()) else { continue };
+        if word.prefix.is_empty() {
+            continue;
+        }
+        if let Some((other, _)) = seen.iter().find(|(_, prefix)| *prefix == word.prefix) {
+            let problem = format!("the words `{other}` and `{item}` are both spelled `{}`", word.prefix);
+            errors.push(at(dialect, path, &codes::post::BAD_PATTERN, problem));
+        }
+        seen.push((item, &word.prefix));
+    }
+}
+
+/// Words that keys name, and words the writer cannot do without.
+fn check_named_words(dialect: &Dialect, errors: &mut Vec<Diagnostic>) {
+    let named = [("dwell.word", &dialect.spec.dwell.word), ("cycle-dwell.word", &dialect.spec.cycle_dwell.word)];
+    for (path, word) in named {
+        if !dialect.spec.words.contains_key(word) {
+            let message = format!("the word `{word}` is not in [words]");
+            errors.push(at(dialect, path, &codes::post::BAD_PATTERN, message));
+        }
+    }
+    for (name, word) in &dialect.spec.words {
+        let bad = word.prefix.bytes().any(|b| !(b.is_ascii_graphic() || b == b' '));
+        if bad || word.prefix.len() > 12 {
+            let message = format!("the prefix of `{name}` is not a short printable text");
+            errors.push(at(dialect, &format!("words.{name}.prefix"), &codes::post::WRONG_VALUE, message));
+        }
+    }
+}
+
+fn check_safe_start(dialect: &Dialect, errors: &mut Vec<Diagnostic>) {
+    let groups = &dialect.spec.groups;
+    let listed = || dialect.spec.safe_start.iter().flatten();
+    for name in listed().filter(|n| !groups.contains_key(*n)) {
+        let near = did_you_mean(name, groups.keys().map(String::as_str))
+            .map(|n| format!("; did you mean `{n}`?"))
+            .unwrap_or_default();
+        let message = format!("`safe-start` names the group `{name}`, which is not in [groups]{near}");
+        errors.push(at(dialect, "safe-start", &codes::post::BAD_PATTERN, message));
+    }
+    if dialect.spec.safe_start.is_empty() {
+        return;
+    }
+    for name in groups.keys().filter(|n| !listed().any(|l| l == *n)) {
+        let message = format!(
+            "the group `{name}` is not in `safe-start`: a program would rely on what the machine happens to have on"
+        );
+        errors.push(at(dialect, &format!("groups.{name}"), &codes::post::BAD_PATTERN, message));
+    }
+}
+
+fn check_tool_change(dialect: &Dialect, errors: &mut Vec<Diagnostic>) {
+    let change = &dialect.spec.tool_change;
+    for name in change.order.iter().filter(|n| !change.blocks.contains_key(*n)) {
+        let near = did_you_mean(name, change.blocks.keys().map(String::as_str))
+            .map(|n| format!("; did you mean `{n}`?"))
+            .unwrap_or_default();
+        let message = format!("`tool-change.order` names the block `{name}`, which is not in [tool-change.blocks]{near}");
+        errors.push(at(dialect, "tool-change.order", &codes::post::BAD_PATTERN, message));
+    }
+}
+
+fn check_rotary(dialect: &Dialect, errors: &mut Vec<Diagnostic>) {
+    let rotary = &dialect.spec.rotary;
+    let single = rotary.letter.len() == 1 && rotary.letters.contains(&rotary.letter);
+    if rotary.enabled && !single {
+        let message =
+            format!("`rotary.letter` is \"{}\", not one letter of \"{}\"", rotary.letter, rotary.letters);
+        errors.push(at(dialect, "rotary.letter", &codes::post::WRONG_VALUE, message));
+    }
+}
+
+fn check_templates(dialect: &Dialect, errors: &mut Vec<Diagnostic>) {
+    let renderer = Renderer::new(&dialect.spec.comments);
+    let templates = &dialect.spec.templates;
+    let fixed = [
+        ("templates.header".to_owned(), &templates.header),
+        ("templates.operation".to_owned(), &templates.operation),
+        ("templates.footer".to_owned(), &templates.footer),
+    ];
+    let blocks = dialect.spec.tool_change.blocks.iter().map(|(n, t)| (format!("tool-change.blocks.{n}"), t));
+    for (path, template) in fixed.into_iter().chain(blocks) {
+        if let Err(error) = renderer.check(template) {
+            errors.push(template_error(dialect, &path, &error));
+        }
+    }
+}
+
+/// A template's error at its line in the post file.
+#[must_use]
+pub fn template_error(dialect: &Dialect, path: &str, error: &super::template::TemplateError) -> Diagnostic {
+    let message = format!("the template `{path}` cannot be used: {}", error.message);
+    let line = error.line.map(|line| format!("line {line} of the template"));
+    let diagnostic = match tree::find(&dialect.tree, path).map(|e| e.value) {
+        Some(span) => Diagnostic::new(&codes::post::BAD_TEMPLATE, first_byte(span), message),
+        None => Diagnostic::global(&codes::post::BAD_TEMPLATE, message),
+    };
+    match line {
+        Some(line) => diagnostic.note(line),
+        None => diagnostic,
+    }
+}
+
+/// Templates are long; a caret under their opening quote is enough.
+fn first_byte(span: Span) -> Span {
+    Span { end: span.start.saturating_add(1).min(span.end), ..span }
+}

@@ -1,0 +1,422 @@
+//! A resolved dialect: the post file and everything it inherits, in types.
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+
+use super::comment::Comments;
+use super::number::{Point, Style};
+use super::tree::Table;
+use crate::units::LengthUnit;
+
+/// A value that may differ between millimetre and inch programs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(untagged)]
+pub enum ByUnit<T> {
+    /// The same for both.
+    Same(T),
+    /// One for each.
+    Each {
+        /// In millimetre programs.
+        mm: T,
+        /// In inch programs.
+        inch: T,
+    },
+}
+
+impl<T: Clone> ByUnit<T> {
+    /// The value for programs in `unit`.
+    #[must_use]
+    pub fn of(&self, unit: LengthUnit) -> T {
+        match (self, unit) {
+            (ByUnit::Same(value), _)
+            | (ByUnit::Each { mm: value, .. }, LengthUnit::Millimetre)
+            | (ByUnit::Each { inch: value, .. }, LengthUnit::Inch) => value.clone(),
+        }
+    }
+}
+
+/// A dialect, ready for lowering and writing.
+#[derive(Debug, Clone)]
+pub struct Dialect {
+    /// The name it was asked for by: `fanuc`, or the stem of a post file.
+    pub(super) name: String,
+    pub(super) spec: Spec,
+    /// The merged tree, for places.
+    pub(super) tree: Table,
+}
+
+impl Dialect {
+    /// The name on the command line, or the stem of the post file.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+    /// Control and series, for people.
+    #[must_use]
+    pub fn title(&self) -> &str {
+        &self.spec.post.title
+    }
+    /// Extension of the NC file, without the point.
+    #[must_use]
+    pub fn extension(&self) -> &str {
+        &self.spec.post.extension
+    }
+    /// The control that reads the program back for the proof.
+    #[must_use]
+    pub fn control(&self) -> &str {
+        &self.spec.post.control
+    }
+    /// How sure the facts are: `interpreter`, `manual` or `published`.
+    #[must_use]
+    pub fn confidence(&self) -> &str {
+        &self.spec.post.confidence
+    }
+    /// What the facts rest on.
+    #[must_use]
+    pub fn basis(&self) -> &str {
+        &self.spec.post.basis
+    }
+    /// The resolved data.
+    #[must_use]
+    pub fn spec(&self) -> &Spec {
+        &self.spec
+    }
+}
+
+/// Who a post is.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)] // The schema documents every key.
+pub struct Post {
+    pub title: String,
+    pub extension: String,
+    pub control: String,
+    pub confidence: String,
+    pub basis: String,
+    #[serde(default, rename = "abstract")]
+    pub is_abstract: bool,
+}
+
+/// A resolved post file; the keys are documented in [`super::schema`].
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct Spec {
+    #[serde(default)]
+    pub inherits: Option<String>,
+    pub post: Post,
+    pub file: File,
+    pub line: Line,
+    pub numbering: Numbering,
+    pub numbers: Numbers,
+    pub words: BTreeMap<String, Word>,
+    pub modal: Modal,
+    pub codes: Codes,
+    pub patterns: Patterns,
+    #[serde(default)]
+    pub groups: BTreeMap<String, Group>,
+    #[serde(default)]
+    pub safe_start: Vec<Vec<String>>,
+    pub arcs: Arcs,
+    pub feed: Feed,
+    pub rotary: Rotary,
+    pub dwell: Dwell,
+    pub cycle_dwell: Dwell,
+    pub spindle: Spindle,
+    pub coolant: Coolant,
+    pub stops: Stops,
+    pub comments: Comments,
+    pub path_control: PathControl,
+    pub nurbs: Nurbs,
+    #[serde(default)]
+    pub limits: Limits,
+    pub tool_change: ToolChange,
+    pub templates: Templates,
+    #[serde(default)]
+    pub options: BTreeMap<String, String>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct File {
+    pub newline: String,
+    pub number: u32,
+    pub name_max: usize,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct Line {
+    pub max_length: usize,
+    pub count_comments: bool,
+    pub count_spaces: bool,
+    pub separator: String,
+}
+
+/// Which lines carry a number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub enum NumberingMode {
+    None,
+    Blocks,
+    Lines,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct Numbering {
+    pub mode: NumberingMode,
+    pub prefix: String,
+    pub start: u32,
+    pub step: u32,
+    pub max: u32,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct Numbers {
+    pub point: Point,
+    pub trailing_zeros: bool,
+    pub bare_fraction: bool,
+    pub plus: bool,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct Word {
+    pub prefix: String,
+    #[serde(default)]
+    pub decimals: Option<ByUnit<u8>>,
+    #[serde(default)]
+    pub max: Option<ByUnit<f64>>,
+    #[serde(default)]
+    pub point: Option<Point>,
+    #[serde(default)]
+    pub trailing_zeros: Option<bool>,
+    #[serde(default)]
+    pub bare_fraction: Option<bool>,
+    #[serde(default)]
+    pub plus: Option<bool>,
+    #[serde(default)]
+    pub modal: Option<bool>,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct Modal {
+    pub motion: bool,
+    pub axes: bool,
+    pub feed: bool,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct Codes {
+    pub rapid: String,
+    pub line: String,
+    pub arc_cw: String,
+    pub arc_ccw: String,
+    #[serde(default)]
+    pub direction_cw: String,
+    #[serde(default)]
+    pub direction_ccw: String,
+    pub per_minute: String,
+    pub per_revolution: String,
+    pub inverse_time: String,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct Patterns {
+    pub rapid: Vec<String>,
+    pub line: Vec<String>,
+    pub arc: Vec<String>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct Group {
+    #[serde(default)]
+    pub codes: Vec<String>,
+    pub start: ByUnit<String>,
+}
+
+/// How a control takes an arc's centre.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub enum ArcForm {
+    Incremental,
+    Absolute,
+    Radius,
+}
+
+/// Which end words a full circle carries.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub enum FullCircleWords {
+    Bare,
+    OneEndWord,
+    EndWords,
+    Split,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct Arcs {
+    pub enabled: bool,
+    pub form: ArcForm,
+    pub zero_offsets: String,
+    pub full_circle: FullCircleWords,
+    pub split: u8,
+    pub max_sweep: f64,
+    pub min_radius: f64,
+    pub max_radius: f64,
+    pub radius_tolerance: f64,
+    pub helix: bool,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct Feed {
+    pub scale: ByUnit<f64>,
+    pub per_revolution: bool,
+    pub inverse_time: bool,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct Rotary {
+    pub enabled: bool,
+    pub letter: String,
+    pub letters: String,
+    pub feed: String,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct Dwell {
+    pub code: String,
+    pub word: String,
+    pub unit: String,
+    pub decimals: u8,
+    pub max: f64,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct Spindle {
+    pub clockwise: String,
+    pub counter_clockwise: String,
+    pub off: String,
+    pub order: String,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct Coolant {
+    pub flood: String,
+    pub mist: String,
+    pub off: String,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct Stops {
+    pub stop: String,
+    pub optional: String,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct PathControl {
+    pub exact: String,
+    pub tolerance: String,
+    pub share: f64,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct Nurbs {
+    pub form: String,
+    pub weight_decimals: u8,
+    pub knot_decimals: u8,
+    pub max_order: u8,
+}
+
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct Limits {
+    #[serde(default)]
+    pub x: Option<[f64; 2]>,
+    #[serde(default)]
+    pub y: Option<[f64; 2]>,
+    #[serde(default)]
+    pub z: Option<[f64; 2]>,
+    #[serde(default)]
+    pub spindle: Option<[f64; 2]>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct ToolChange {
+    pub order: Vec<String>,
+    pub blocks: BTreeMap<String, String>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct Templates {
+    pub header: String,
+    pub footer: String,
+    pub operation: String,
+}
+
+impl Spec {
+    /// Decimals of a word in programs in `unit`; 0 where there is no such word.
+    #[must_use]
+    pub fn decimals(&self, word: &str, unit: LengthUnit) -> u8 {
+        self.words.get(word).and_then(|w| w.decimals).map_or(0, |d| d.of(unit))
+    }
+    /// Largest printed magnitude of a word, in its steps.
+    #[must_use]
+    pub fn range(&self, word: &str, unit: LengthUnit) -> i64 {
+        let limit = self.words.get(word).and_then(|w| w.max).map_or(f64::INFINITY, |m| m.of(unit));
+        super::number::steps(limit, self.decimals(word, unit)).unwrap_or(1_000_000_000_000_000)
+    }
+    /// Spelling of a word's number.
+    #[must_use]
+    pub fn style(&self, word: &Word, unit: LengthUnit) -> Style {
+        Style {
+            decimals: word.decimals.map_or(0, |d| d.of(unit)),
+            point: word.point.unwrap_or(self.numbers.point),
+            trailing_zeros: word.trailing_zeros.unwrap_or(self.numbers.trailing_zeros),
+            bare_fraction: word.bare_fraction.unwrap_or(self.numbers.bare_fraction),
+            plus: word.plus.unwrap_or(self.numbers.plus && word.decimals.is_some()),
+        }
+    }
+}

@@ -1,0 +1,215 @@
+//! Finding, inheriting and checking post files.
+
+use super::dialect::{Dialect, Spec};
+use super::tree::{self, Node, Table};
+use super::check;
+use crate::diag::{Diagnostic, Label, codes, did_you_mean};
+use crate::source::{FileError, FileId, FileProvider, SourceMap, Span};
+
+/// The built-in post files, by name.
+const BUILTIN: &[(&str, &str)] = &[
+    ("iso", include_str!("dialects/iso.post.toml")),
+    ("fanuc", include_str!("dialects/fanuc.post.toml")),
+    ("grbl", include_str!("dialects/grbl.post.toml")),
+    ("linuxcnc", include_str!("dialects/linuxcnc.post.toml")),
+];
+
+/// Longest chain of `inherits`.
+const MAX_DEPTH: usize = 8;
+
+/// The names that can be given on the command line, in alphabetical order.
+pub fn builtin_names() -> impl Iterator<Item = &'static str> {
+    // `iso` is there to be inherited from.
+    BUILTIN.iter().map(|(name, _)| *name).filter(|name| *name != "iso")
+}
+
+/// The text of a built-in post file, `iso` included.
+#[must_use]
+pub fn builtin_text(name: &str) -> Option<&'static str> {
+    BUILTIN.iter().find(|(n, _)| n.eq_ignore_ascii_case(name)).map(|(_, text)| *text)
+}
+
+/// Loads a post: a built-in name, or a path to a `*.post.toml` file.
+///
+/// Files that are read, and built-in ones that an error points into, are added to `sources`.
+///
+/// # Errors
+/// Every error that was found, with its place in the post file.
+pub fn load(
+    name_or_path: &str,
+    files: &dyn FileProvider,
+    sources: &mut SourceMap,
+) -> Result<Dialect, Vec<Diagnostic>> {
+    load_with(name_or_path, &[], files, sources)
+}
+
+/// Loads a post with overrides: each a dotted key and its value, as `--post-set` gives them.
+///
+/// # Errors
+/// As [`load`]; a bad override is shown in its own little file.
+pub fn load_with(
+    name_or_path: &str,
+    overrides: &[(String, String)],
+    files: &dyn FileProvider,
+    sources: &mut SourceMap,
+) -> Result<Dialect, Vec<Diagnostic>> {
+    let mut loader = Loader { files, sources, chain: Vec::new(), user: false };
+    let result = loader.dialect(name_or_path, overrides);
+    result.map_err(|errors| name_builtins(errors, sources))
+}
+
+impl Loader<'_> {
+    fn dialect(&mut self, name_or_path: &str, overrides: &[(String, String)]) -> Result<Dialect, Vec<Diagnostic>> {
+    let mut tree = self.tree(name_or_path, None, None)?;
+    if !overrides.is_empty() {
+        tree = tree::merge(tree, self.overrides(overrides)?);
+    }
+    let user = self.user;
+    let spec = typed(&tree).map_err(|message| vec![incomplete(name_or_path, &message)])?;
+    let dialect = Dialect { name: stem(name_or_path), spec, tree };
+    if dialect.spec.post.is_abstract {
+        return Err(vec![unknown(name_or_path, None)]);
+    }
+    let errors = check::check(&dialect, user);
+    if errors.is_empty() { Ok(dialect) } else { Err(errors) }
+}
+}
+
+/// Places in built-in files have this file number and those below it, until a message needs them.
+const FIRST_BUILTIN: u32 = u32::MAX;
+
+/// Adds the built-in files that messages point into to `sources`, and points the messages there.
+fn name_builtins(mut errors: Vec<Diagnostic>, sources: &mut SourceMap) -> Vec<Diagnostic> {
+    let mut given: Vec<Option<FileId>> = vec![None; BUILTIN.len()];
+    let mut place = |label: &mut Label| {
+        let index = (FIRST_BUILTIN - label.span.file.0) as usize;
+        if let (Some((name, text)), Some(slot)) = (BUILTIN.get(index), given.get_mut(index)) {
+            label.span.file = *slot.get_or_insert_with(|| sources.add(format!("builtin {name}.post.toml"), *text));
+        }
+    };
+    for error in &mut errors {
+        error.primary.iter_mut().chain(&mut error.labels).for_each(&mut place);
+    }
+    errors
+}
+
+/// `post/mill.post.toml` → `mill`.
+fn stem(name_or_path: &str) -> String {
+    let file = name_or_path.rsplit(['/', '\\']).next().unwrap_or(name_or_path);
+    let file = file.strip_suffix(".toml").unwrap_or(file);
+    file.strip_suffix(".post").unwrap_or(file).to_lowercase()
+}
+
+fn typed(tree: &Table) -> Result<Spec, String> {
+    toml::Value::Table(tree::plain(tree)).try_into::<Spec>().map_err(|e| e.message().to_owned())
+}
+
+struct Loader<'a> {
+    files: &'a dyn FileProvider,
+    sources: &'a mut SourceMap,
+    /// Names of the files being resolved, from the child to the parent.
+    chain: Vec<String>,
+    /// Whether a file of the user is among them.
+    user: bool,
+}
+
+impl Loader<'_> {
+    /// The merged tree of a post; `from` is the file that inherits it, `at` the place where it says so.
+    fn tree(&mut self, name: &str, from: Option<&str>, at: Option<Span>) -> Result<Table, Vec<Diagnostic>> {
+        if let Some(index) = BUILTIN.iter().position(|(n, _)| n.eq_ignore_ascii_case(name)) {
+            return self.builtin(index);
+        }
+        if !name.ends_with(".toml") {
+            return Err(vec![unknown(name, at)]);
+        }
+        let (display, text) =
+            self.files.read(from, name).map_err(|error| vec![unreadable(name, &error, at)])?;
+        if self.chain.contains(&display) || self.chain.len() >= MAX_DEPTH {
+            return Err(vec![self.cycle(&display, at)]);
+        }
+        self.user = true;
+        self.chain.push(display.clone());
+        let file = self.sources.add(display.clone(), text.as_str());
+        let own = tree::parse(file, &text)?;
+        self.inherit(own, Some(&display))
+    }
+
+    fn builtin(&mut self, index: usize) -> Result<Table, Vec<Diagnostic>> {
+        let text = BUILTIN[index].1;
+        let own = tree::parse(FileId(FIRST_BUILTIN - index as u32), text)?;
+        self.inherit(own, None)
+    }
+
+    fn inherit(&mut self, own: Table, from: Option<&str>) -> Result<Table, Vec<Diagnostic>> {
+        let Some(entry) = own.get("inherits") else { return Ok(own) };
+        let Node::Leaf(toml::Value::String(parent)) = &entry.node else { return Ok(own) };
+        let (parent, at) = (parent.clone(), entry.value);
+        let mut base = self.tree(&parent, from, Some(at))?;
+        // A parent that is only for inheriting does not make its children so.
+        if let Some(Node::Table(post)) = base.get_mut("post").map(|e| &mut e.node) {
+            post.remove("abstract");
+        }
+        Ok(tree::merge(base, own))
+    }
+
+    fn cycle(&self, name: &str, at: Option<Span>) -> Diagnostic {
+        let chain: Vec<&str> = self.chain.iter().map(String::as_str).chain([name]).collect();
+        let message = format!("post files inherit in a circle or too deeply: {}", chain.join(" > "));
+        at.map_or_else(
+            || Diagnostic::global(&codes::post::INHERITANCE, message.clone()),
+            |span| Diagnostic::new(&codes::post::INHERITANCE, span, message.clone()),
+        )
+    }
+
+    fn overrides(&mut self, overrides: &[(String, String)]) -> Result<Table, Vec<Diagnostic>> {
+        let mut merged = Table::new();
+        for (key, value) in overrides {
+            let bare = format!("{key} = {value}\n");
+            let text = if bare.parse::<toml::Table>().is_ok() {
+                bare
+            } else {
+                format!("{key} = {}\n", toml::Value::String(value.clone()))
+            };
+            let file: FileId = self.sources.add("--post-set", text.as_str());
+            merged = tree::merge(merged, tree::parse(file, &text)?);
+        }
+        Ok(merged)
+    }
+}
+
+fn unknown(name: &str, at: Option<Span>) -> Diagnostic {
+    let message = format!("there is no post `{name}`");
+    let error = match at {
+        Some(span) => Diagnostic::new(&codes::post::UNKNOWN_POST, span, message),
+        None => Diagnostic::global(&codes::post::UNKNOWN_POST, message),
+    };
+    match did_you_mean(name, builtin_names()) {
+        Some(near) => error.help(format!("did you mean `{near}`?")),
+        None => {
+            let names: Vec<&str> = builtin_names().collect();
+            error.help(format!(
+                "built-in posts are {}; a post file of your own ends in `.post.toml`",
+                names.join(", ")
+            ))
+        }
+    }
+}
+
+fn unreadable(name: &str, error: &FileError, at: Option<Span>) -> Diagnostic {
+    let reason = match error {
+        FileError::NotFound => "there is no such file".to_owned(),
+        FileError::OutsideRoot => "it lies outside the project's root".to_owned(),
+        FileError::NotUtf8(byte) => format!("byte {byte} is not UTF-8"),
+        FileError::Other(text) => text.clone(),
+    };
+    let message = format!("the post file `{name}` cannot be read: {reason}");
+    match at {
+        Some(span) => Diagnostic::new(&codes::post::UNREADABLE_POST, span, message),
+        None => Diagnostic::global(&codes::post::UNREADABLE_POST, message),
+    }
+}
+
+fn incomplete(name: &str, message: &str) -> Diagnostic {
+    Diagnostic::global(&codes::post::INCOMPLETE_POST, format!("the post `{name}` is not complete: {message}"))
+        .help("inherit from a built-in post, for example `inherits = \"fanuc\"`; it has every key")
+}

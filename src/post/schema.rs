@@ -1,0 +1,229 @@
+//! The keys of a post file: one table that checking, «did you mean», the published JSON Schema and the
+//! documentation read.
+
+/// What a key holds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Shape {
+    /// Text.
+    Text,
+    /// `true` or `false`.
+    Flag,
+    /// An integer in a range.
+    Integer(i64, i64),
+    /// A number in a range.
+    Number(f64, f64),
+    /// An integer, or one each for mm and inch: `{ mm = 3, inch = 4 }`.
+    IntegerByUnit(i64, i64),
+    /// A number, or one each for mm and inch.
+    NumberByUnit(f64, f64),
+    /// A text, or one each for mm and inch.
+    TextByUnit,
+    /// One of these words.
+    Choice(&'static [&'static str]),
+    /// A list of texts.
+    TextList,
+    /// A list of lists of texts.
+    TextLists,
+    /// Two numbers, the first smaller.
+    Range,
+    /// A table of these keys.
+    Table(&'static [Key]),
+    /// A table of freely named tables of these keys.
+    Tables(&'static [Key]),
+    /// A table of freely named texts.
+    Texts,
+}
+
+/// One key.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Key {
+    /// Its name.
+    pub name: &'static str,
+    /// What it holds.
+    pub shape: Shape,
+    /// What it means.
+    pub doc: &'static str,
+}
+
+const fn key(name: &'static str, shape: Shape, doc: &'static str) -> Key {
+    Key { name, shape, doc }
+}
+
+/// The keys at the top of a post file.
+pub const ROOT: &[Key] = &[
+    key("inherits", Shape::Text, "built-in post, or post file relative to this one, whose keys hold where this file is silent"),
+    key("post", Shape::Table(POST), "who it is"),
+    key("file", Shape::Table(FILE), "the file as a whole"),
+    key("line", Shape::Table(LINE), "the line as a whole"),
+    key("numbering", Shape::Table(NUMBERING), "block numbers"),
+    key("numbers", Shape::Table(NUMBERS), "spelling of numbers with decimals, unless a word says otherwise"),
+    key("words", Shape::Tables(WORD), "the words, by the names that patterns use"),
+    key("modal", Shape::Table(MODAL), "what is left out when it has not changed"),
+    key("codes", Shape::Table(CODES), "motion and feed-mode codes"),
+    key("patterns", Shape::Table(PATTERNS), "what a motion block prints, in order"),
+    key("groups", Shape::Tables(GROUP), "modal groups of the control, by name"),
+    key("safe-start", Shape::TextLists, "groups whose start codes the variable `safe_start` prints, line by line"),
+    key("arcs", Shape::Table(ARCS), "circular interpolation"),
+    key("feed", Shape::Table(FEED), "feeds"),
+    key("rotary", Shape::Table(ROTARY), "rotary table"),
+    key("dwell", Shape::Table(DWELL), "dwell in a block of its own"),
+    key("cycle-dwell", Shape::Table(DWELL), "dwell inside drilling cycles"),
+    key("spindle", Shape::Table(SPINDLE), "spindle"),
+    key("coolant", Shape::Table(COOLANT), "coolant"),
+    key("stops", Shape::Table(STOPS), "program stops"),
+    key("comments", Shape::Table(COMMENTS), "comments"),
+    key("path-control", Shape::Table(PATH_CONTROL), "how closely the control follows the path"),
+    key("nurbs", Shape::Table(NURBS), "NURBS output"),
+    key("limits", Shape::Table(LIMITS), "limits of the machine"),
+    key("tool-change", Shape::Table(TOOL_CHANGE), "what a tool change prints"),
+    key("templates", Shape::Table(TEMPLATES), "start and end of the program"),
+    key("options", Shape::Texts, "values that templates read as `options.NAME`; `--post-set` and MACHIN options override them"),
+];
+
+const POST: &[Key] = &[
+    key("title", Shape::Text, "control and series, for people"),
+    key("extension", Shape::Text, "of the NC file, without the point"),
+    key("control", Shape::Text, "the control that reads the program back for the proof"),
+    key("confidence", Shape::Choice(&["interpreter", "manual", "published"]), "checked by the control's own interpreter, taken from its manual, or from published posts"),
+    key("basis", Shape::Text, "what the facts rest on"),
+    key("abstract", Shape::Flag, "only to be inherited from"),
+];
+const FILE: &[Key] = &[
+    key("newline", Shape::Choice(&["lf", "crlf"]), "end of line"),
+    key("number", Shape::Integer(0, 99_999_999), "program number where the frame has one"),
+    key("name-max", Shape::Integer(1, 256), "longest program name"),
+];
+const LINE: &[Key] = &[
+    key("max-length", Shape::Integer(0, 65_535), "characters in a line, 0 without limit"),
+    key("count-comments", Shape::Flag, "comments count for `max-length`"),
+    key("count-spaces", Shape::Flag, "spaces count for `max-length`"),
+    key("separator", Shape::Text, "between the words of a block"),
+];
+const NUMBERING: &[Key] = &[
+    key("mode", Shape::Choice(&["none", "blocks", "lines"]), "nothing, or blocks but not comments and frame, or every line"),
+    key("prefix", Shape::Text, "before the number"),
+    key("start", Shape::Integer(0, 99_999_999), "first number"),
+    key("step", Shape::Integer(1, 10_000), "distance of numbers"),
+    key("max", Shape::Integer(1, 999_999_999), "largest number; numbering starts again after it"),
+];
+const NUMBERS: &[Key] = &[
+    key("point", Shape::Choice(&["needed", "always", "digit"]), "`5`, `5.` or `5.0`"),
+    key("trailing-zeros", Shape::Flag, "`5.250`"),
+    key("bare-fraction", Shape::Flag, "`.5`"),
+    key("plus", Shape::Flag, "`+5`"),
+];
+const WORD: &[Key] = &[
+    key("prefix", Shape::Text, "what stands before the number: `X`, `CR=`"),
+    key("decimals", Shape::IntegerByUnit(0, 9), "decimals; without them the word is an integer and never carries a point"),
+    key("max", Shape::NumberByUnit(0.0, 1e12), "largest magnitude"),
+    key("point", Shape::Choice(&["needed", "always", "digit"]), "as in `numbers`"),
+    key("trailing-zeros", Shape::Flag, "as in `numbers`"),
+    key("bare-fraction", Shape::Flag, "as in `numbers`"),
+    key("plus", Shape::Flag, "as in `numbers`"),
+    key("modal", Shape::Flag, "left out when its printed number has not changed"),
+];
+const MODAL: &[Key] = &[
+    key("motion", Shape::Flag, "motion codes"),
+    key("axes", Shape::Flag, "axis words"),
+    key("feed", Shape::Flag, "feed"),
+];
+const CODES: &[Key] = &[
+    key("rapid", Shape::Text, "straight at rapid"),
+    key("line", Shape::Text, "straight at feed"),
+    key("arc-cw", Shape::Text, "clockwise"),
+    key("arc-ccw", Shape::Text, "counter-clockwise"),
+    key("direction-cw", Shape::Text, "the pattern item `direction` of a clockwise arc"),
+    key("direction-ccw", Shape::Text, "the pattern item `direction` of a counter-clockwise arc"),
+    key("per-minute", Shape::Text, "feed per minute"),
+    key("per-revolution", Shape::Text, "feed per revolution"),
+    key("inverse-time", Shape::Text, "inverse time feed"),
+];
+const PATTERNS: &[Key] = &[
+    key("rapid", Shape::TextList, "straight at rapid: names of words, `motion`, `feed-mode`, `direction`, `/` for a new line, `=TEXT` as it is"),
+    key("line", Shape::TextList, "straight at feed"),
+    key("arc", Shape::TextList, "arc and helix"),
+];
+const GROUP: &[Key] = &[
+    key("codes", Shape::TextList, "all codes of the group that programs may use"),
+    key("start", Shape::TextByUnit, "the code every program starts with"),
+];
+const ARCS: &[Key] = &[
+    key("enabled", Shape::Flag, "the control has circular interpolation"),
+    key("form", Shape::Choice(&["incremental", "absolute", "radius"]), "centre from the start, centre in program coordinates, or radius"),
+    key("zero-offsets", Shape::Choice(&["keep", "drop"]), "a centre word that is zero is printed, or left out when the other is not zero"),
+    key("full-circle", Shape::Choice(&["bare", "one-end-word", "end-words", "split"]), "end words of a full circle: none, one, both; or no full circles"),
+    key("split", Shape::Integer(2, 16), "arcs a full circle is split in where the control has none"),
+    key("max-sweep", Shape::Number(1.0, 360.0), "degrees in one block"),
+    key("min-radius", Shape::Number(0.0, 1e6), "mm; smaller arcs become lines"),
+    key("max-radius", Shape::Number(0.001, 1e9), "mm; larger arcs become lines"),
+    key("radius-tolerance", Shape::Number(1e-6, 1.0), "largest difference of start and end radius in printed numbers, mm"),
+    key("helix", Shape::Flag, "Z may move in an arc block"),
+];
+const FEED: &[Key] = &[
+    key("scale", Shape::NumberByUnit(0.001, 1000.0), "what is printed for one output unit a minute"),
+    key("per-revolution", Shape::Flag, "the control has feed per revolution"),
+    key("inverse-time", Shape::Flag, "the control has inverse time feed"),
+];
+const ROTARY: &[Key] = &[
+    key("enabled", Shape::Flag, "a rotary axis is possible"),
+    key("letter", Shape::Text, "the usual letter"),
+    key("letters", Shape::Text, "the letters that are possible"),
+    key("feed", Shape::Choice(&["linear-axes", "units-as-degrees"]), "what F means when a linear and the rotary axis move together"),
+];
+const DWELL: &[Key] = &[
+    key("code", Shape::Text, "before the time"),
+    key("word", Shape::Text, "the word that carries the time"),
+    key("unit", Shape::Choice(&["s", "ms", "0.01s"]), "unit of the number"),
+    key("decimals", Shape::Integer(0, 6), "decimals of the number"),
+    key("max", Shape::Number(0.0, 1e9), "longest, seconds"),
+];
+const SPINDLE: &[Key] = &[
+    key("clockwise", Shape::Text, "on, clockwise"),
+    key("counter-clockwise", Shape::Text, "on, counter-clockwise"),
+    key("off", Shape::Text, "off"),
+    key("order", Shape::Choice(&["speed-first", "code-first", "speed-only"]), "`S1000 M3`, `M3 S1000` or the speed alone"),
+];
+const COOLANT: &[Key] = &[
+    key("flood", Shape::Text, "flood on; empty: the control has none"),
+    key("mist", Shape::Text, "mist on; empty: the control has none"),
+    key("off", Shape::Text, "off"),
+];
+const STOPS: &[Key] = &[
+    key("stop", Shape::Text, "program stop"),
+    key("optional", Shape::Text, "optional stop; empty: the control has none"),
+];
+const COMMENTS: &[Key] = &[
+    key("open", Shape::Text, "before the text; empty: the control has no comments"),
+    key("close", Shape::Text, "after the text"),
+    key("allowed", Shape::Text, "characters besides letters, digits and space"),
+    key("upper-case", Shape::Flag, "letters are printed in upper case"),
+    key("replace", Shape::Text, "stands for a character that is not allowed"),
+    key("max-length", Shape::Integer(0, 65_535), "characters of text in one comment, 0 without limit; longer ones are wrapped"),
+    key("active-words", Shape::TextList, "words that the control would obey at the start of a comment"),
+];
+const PATH_CONTROL: &[Key] = &[
+    key("exact", Shape::Text, "exact path; empty: nothing to say"),
+    key("tolerance", Shape::Text, "before the path tolerance; empty: the control has none"),
+    key("share", Shape::Number(0.0, 0.9), "part of an operation's band that the control may use; 0 asks for the exact path"),
+];
+const NURBS: &[Key] = &[
+    key("form", Shape::Choice(&["none", "g06.2", "g5.2"]), "spelling"),
+    key("weight-decimals", Shape::Integer(0, 9), "decimals of weights"),
+    key("knot-decimals", Shape::Integer(0, 9), "decimals of knots"),
+    key("max-order", Shape::Integer(2, 6), "largest degree + 1"),
+];
+const LIMITS: &[Key] = &[
+    key("x", Shape::Range, "travel of X in program coordinates, mm"),
+    key("y", Shape::Range, "travel of Y, mm"),
+    key("z", Shape::Range, "travel of Z, mm"),
+    key("spindle", Shape::Range, "revolutions per minute"),
+];
+const TOOL_CHANGE: &[Key] = &[
+    key("order", Shape::TextList, "names of the blocks to print, in order"),
+    key("blocks", Shape::Texts, "the blocks, each a template; an empty answer prints nothing"),
+];
+const TEMPLATES: &[Key] = &[
+    key("header", Shape::Text, "start of the program"),
+    key("footer", Shape::Text, "end of the program"),
+    key("operation", Shape::Text, "start of an operation"),
+];
