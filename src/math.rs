@@ -83,3 +83,9 @@ pub fn cbrt(x: f64) -> f64 {
 pub fn count(n: usize) -> f64 {
     n as f64
 }
+/// The smallest integer not below `x`, for counts; 0 for what is negative or no number.
+#[must_use]
+pub fn ceil_to_usize(x: f64) -> usize {
+    // Float to integer conversion saturates, and NaN gives 0.
+    x.ceil() as usize
+}

@@ -1,0 +1,228 @@
+//! Choosing how a contour is expressed, and fitting it.
+
+use std::sync::Arc;
+
+use rayon::prelude::*;
+
+use super::fit::{self, Fit, FitError, Tube};
+use super::place::at_origin;
+use crate::cl::{Cl, Contour, Lead, Record, RecordKind};
+use crate::diag::{Code, Diagnostic, Sink, codes};
+use crate::geom::Side;
+use crate::ir::{Band, Interpolation};
+use crate::target::Capabilities;
+
+/// A contour's fit.
+#[derive(Debug, Clone)]
+pub struct Fitted {
+    /// The chain, on the grid.
+    pub fit: Fit,
+    /// What it is made of; never [`Interpolation::Auto`].
+    pub interpolation: Interpolation,
+    /// Part of the band left to the control, mm.
+    pub reserved: f64,
+}
+
+/// What the target cannot do and what was done instead.
+type Demotion = (&'static Code, String);
+
+/// Fits all contours of a program, in parallel; one entry a record, `None` where it is no contour. Contours
+/// that ask the same share a fit.
+pub fn fit_all(cl: &Cl, capabilities: &Capabilities, sink: &mut Sink) -> Vec<Option<Arc<Fitted>>> {
+    let contours: Vec<(usize, &Contour)> = cl
+        .records
+        .iter()
+        .enumerate()
+        .filter_map(|(i, r)| if let RecordKind::Contour(c) = &r.kind { Some((i, &**c)) } else { None })
+        .collect();
+    let leaders: Vec<usize> = (0..contours.len())
+        .map(|i| (0..i).find(|&j| same_task(contours[i].1, contours[j].1)).unwrap_or(i))
+        .collect();
+    let results: Vec<Option<Result<(Arc<Fitted>, Vec<Demotion>), FitError>>> = contours
+        .par_iter()
+        .enumerate()
+        .map(|(i, (_, contour))| (leaders[i] == i).then(|| fit_one(contour, capabilities)))
+        .collect();
+    let mut fitted = vec![None; cl.records.len()];
+    let mut told: Vec<(&'static str, crate::source::Span)> = Vec::new();
+    for (i, (record, contour)) in contours.iter().enumerate() {
+        match &results[leaders[i]] {
+            Some(Ok((fit, demotions))) => {
+                fitted[*record] = Some(Arc::clone(fit));
+                tell(cl, &cl.records[*record], demotions, fit, &mut told, sink);
+            }
+            Some(Err(error)) if leaders[i] == i => {
+                sink.push(cannot_fit(cl, &cl.records[*record], contour, error, capabilities));
+            }
+            _ => {}
+        }
+    }
+    fitted
+}
+
+fn same_task(a: &Contour, b: &Contour) -> bool {
+    Arc::ptr_eq(&a.curve, &b.curve)
+        && a.part == b.part
+        && a.band == b.band
+        && a.interpolation == b.interpolation
+        && a.exact_dwells == b.exact_dwells
+        && a.start == b.start
+        && (a.entry == Lead::None) == (b.entry == Lead::None)
+}
+
+/// One note for each code and statement: a roughing operation has many contours.
+fn tell(
+    cl: &Cl,
+    record: &Record,
+    demotions: &[Demotion],
+    fitted: &Fitted,
+    told: &mut Vec<(&'static str, crate::source::Span)>,
+    sink: &mut Sink,
+) {
+    for (code, message) in demotions {
+        let key = (code.id, cl.origins[record.origin].span);
+        if !told.contains(&key) {
+            told.push(key);
+            let (left, right) = fitted.fit.deviation;
+            sink.push(at_origin(code, &cl.origins, record.origin, message.as_str()).note(format!(
+                "{} blocks; largest deviation {:.4} mm",
+                fitted.fit.primitives.len(),
+                left.max(right)
+            )));
+        }
+    }
+}
+
+fn cannot_fit(
+    cl: &Cl,
+    record: &Record,
+    contour: &Contour,
+    error: &FitError,
+    capabilities: &Capabilities,
+) -> Diagnostic {
+    let Band { into, out } = contour.band;
+    at_origin(&codes::lowering::CANNOT_FIT, &cl.origins, record.origin, error.to_string())
+        .note(format!(
+            "the band is INTOL {into} mm, OUTTOL {out} mm; {} takes {} decimals in {}",
+            capabilities.name,
+            capabilities.grid.linear_decimals,
+            capabilities.grid.unit.symbol()
+        ))
+        .help("give a larger INTOL or OUTTOL, or use a post with more decimals")
+}
+
+fn fit_one(contour: &Contour, capabilities: &Capabilities) -> Result<(Arc<Fitted>, Vec<Demotion>), FitError> {
+    let mut demotions = Vec::new();
+    let reserved = reserve(contour.band, capabilities, &mut demotions);
+    let wanted = legal(contour, capabilities, &mut demotions);
+    let (mut left, mut right) = match contour.part {
+        Side::Left => (contour.band.into, contour.band.out),
+        Side::Right => (contour.band.out, contour.band.into),
+    };
+    left = (left - reserved).max(0.0);
+    right = (right - reserved).max(0.0);
+    let tube = Tube { curve: &*contour.curve, left, right };
+    let (fit, interpolation) = fit_as(&tube, contour, wanted, capabilities)?;
+    Ok((Arc::new(Fitted { fit, interpolation, reserved }), demotions))
+}
+
+/// The control's part of the band.
+fn reserve(band: Band, capabilities: &Capabilities, demotions: &mut Vec<Demotion>) -> f64 {
+    let Some(path) = capabilities.path_tolerance else { return 0.0 };
+    let least = band.into.min(band.out);
+    if least <= 0.0 {
+        demotions.push((
+            &codes::lowering::PATH_TOLERANCE,
+            "one side of the tolerance is zero: nothing is left for the control's own smoothing, it follows the exact path"
+                .into(),
+        ));
+    }
+    least * path.share
+}
+
+/// The interpolation asked for, or what the target has instead.
+fn legal(contour: &Contour, capabilities: &Capabilities, demotions: &mut Vec<Demotion>) -> Interpolation {
+    let name = &capabilities.name;
+    let round = if capabilities.arcs { "arcs" } else { "lines" };
+    match contour.interpolation {
+        Interpolation::RTheta if !polar_possible(contour, capabilities) => {
+            let why = if capabilities.rotary.is_some() { "this cut is entered from the side" } else { "it has no rotary axis" };
+            demotions.push((
+                &codes::lowering::NO_ROTARY,
+                format!("RTHETA is not possible on `{name}`: {why}; the path is made of {round}"),
+            ));
+            Interpolation::Auto
+        }
+        Interpolation::Nurbs if capabilities.nurbs.is_none() => {
+            demotions.push((
+                &codes::lowering::NO_NURBS,
+                format!("`{name}` has no NURBS; the path is made of {round}"),
+            ));
+            Interpolation::Auto
+        }
+        Interpolation::Circular if !capabilities.arcs => {
+            demotions.push((
+                &codes::lowering::NO_ARCS,
+                format!("`{name}` has no circular interpolation; the path is made of lines"),
+            ));
+            Interpolation::Linear
+        }
+        other => other,
+    }
+}
+
+/// R-theta output needs a rotary axis, and an entry from above, where the table can turn.
+fn polar_possible(contour: &Contour, capabilities: &Capabilities) -> bool {
+    capabilities.rotary.is_some() && contour.entry != Lead::None && contour.exit != Lead::None
+}
+
+fn fit_as(
+    tube: &Tube,
+    contour: &Contour,
+    wanted: Interpolation,
+    capabilities: &Capabilities,
+) -> Result<(Fit, Interpolation), FitError> {
+    let grid = fit::Grid::from(&capabilities.grid);
+    let start = contour.start;
+    match wanted {
+        Interpolation::Linear => fit::lines(tube, &grid, start).map(|f| (f, Interpolation::Linear)),
+        Interpolation::Circular => {
+            fit::arcs(tube, &grid, contour.exact_dwells, start).map(|f| (f, Interpolation::Circular))
+        }
+        Interpolation::RTheta => fit::spirals(tube, &grid, start).map(|f| (f, Interpolation::RTheta)),
+        Interpolation::Nurbs => fit::nurbs(tube, &grid, start).map(|f| (f, Interpolation::Nurbs)),
+        Interpolation::Auto => fewest(tube, contour, capabilities),
+    }
+}
+
+/// The fewest blocks that the target can do; among equals the smaller deviation, then the simpler motion.
+fn fewest(tube: &Tube, contour: &Contour, capabilities: &Capabilities) -> Result<(Fit, Interpolation), FitError> {
+    let mut kinds = Vec::new();
+    if capabilities.arcs {
+        kinds.push(Interpolation::Circular);
+    } else {
+        kinds.push(Interpolation::Linear);
+    }
+    if polar_possible(contour, capabilities) {
+        kinds.push(Interpolation::RTheta);
+    }
+    let mut best: Option<(Fit, Interpolation)> = None;
+    let mut failure = None;
+    for kind in kinds {
+        match fit_as(tube, contour, kind, capabilities) {
+            Ok(found) => best = Some(best.filter(|b| !better(&found.0, &b.0)).unwrap_or(found)),
+            Err(error) => failure = failure.or(Some(error)),
+        }
+    }
+    match (best, failure) {
+        (Some(best), _) => Ok(best),
+        // Arcs can fail where lines do: lines are the last resort.
+        (None, Some(error)) if !capabilities.arcs => Err(error),
+        (None, _) => fit_as(tube, contour, Interpolation::Linear, capabilities),
+    }
+}
+
+fn better(a: &Fit, b: &Fit) -> bool {
+    let worst = |f: &Fit| f.deviation.0.max(f.deviation.1);
+    (a.primitives.len(), worst(a)) < (b.primitives.len(), worst(b))
+}

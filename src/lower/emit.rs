@@ -1,0 +1,396 @@
+//! CL records to target blocks.
+
+use std::sync::Arc;
+
+use super::contour::Fitted;
+use super::feed::{self, FeedTrouble};
+use super::place::at_origin;
+use super::rotary;
+use super::tools::Tools;
+use crate::arena::Handle;
+use crate::cl::{Cl, Contour, Lead, Record, RecordKind};
+use crate::diag::{Code, Sink, codes};
+use crate::geom::Point3;
+use crate::ir::{Band, Coolant, Feed, Origin, Spindle};
+use crate::post::number;
+use crate::target::{
+    Block, BlockKind, Capabilities, FeedWord, Motion, Nurbs, Piece, PieceId, Position, TargetProgram, axes,
+};
+
+/// Emits all records. `fitted` is what [`super::contour::fit_all`] gave.
+pub(super) fn program(
+    cl: &Cl,
+    capabilities: &Capabilities,
+    fitted: &[Option<Arc<Fitted>>],
+    sink: &mut Sink,
+) -> Option<TargetProgram> {
+    let first = cl.records.first()?.origin;
+    let mut emitter = Emitter::new(cl, capabilities, sink, first);
+    emitter.event(BlockKind::Begin);
+    for (index, record) in cl.records.iter().enumerate() {
+        emitter.origin = record.origin;
+        emitter.record(index, record, fitted);
+    }
+    emitter.event(BlockKind::End);
+    Some(emitter.finish())
+}
+
+/// The largest number of messages about numbers that do not fit: one is enough for each statement.
+const MAX_COMPLAINTS: usize = 50;
+
+/// Builds the program block by block.
+pub(super) struct Emitter<'a> {
+    pub(super) cl: &'a Cl,
+    pub(super) capabilities: &'a Capabilities,
+    sink: &'a mut Sink,
+    tools: Tools,
+    origin: Handle<Origin>,
+    pub(super) piece: Option<PieceId>,
+    /// Printed positions of X, Y, Z and the rotary axis, where known.
+    pub(super) at: [Option<i64>; 4],
+    pub(super) feed: Option<Feed>,
+    pub(super) rpm: f64,
+    pub(super) operation: u32,
+    complaints: Vec<(&'static str, Handle<Origin>)>,
+    pub(super) blocks: Vec<Block>,
+    pub(super) pieces: Vec<Piece>,
+    pub(super) nurbs: Vec<Nurbs>,
+}
+
+impl<'a> Emitter<'a> {
+    fn new(cl: &'a Cl, capabilities: &'a Capabilities, sink: &'a mut Sink, origin: Handle<Origin>) -> Emitter<'a> {
+        let mut emitter = Emitter {
+            cl,
+            capabilities,
+            sink,
+            tools: Tools::of(cl),
+            origin,
+            piece: None,
+            at: [None; 4],
+            feed: None,
+            rpm: 0.0,
+            operation: 0,
+            complaints: Vec::new(),
+            blocks: Vec::new(),
+            pieces: Vec::new(),
+            nurbs: Vec::new(),
+        };
+        emitter.forget();
+        emitter
+    }
+
+    fn finish(self) -> TargetProgram {
+        TargetProgram {
+            title: self.cl.title.clone(),
+            capabilities: self.capabilities.clone(),
+            tools: self.tools.list,
+            pieces: self.pieces,
+            nurbs: self.nurbs,
+            blocks: self.blocks,
+        }
+    }
+
+    /// Positions are unknown; a machine without a rotary axis has it at 0 for ever.
+    fn forget(&mut self) {
+        self.at = [None, None, None, self.capabilities.rotary.is_none().then_some(0)];
+    }
+
+    fn event(&mut self, kind: BlockKind) {
+        self.blocks.push(Block { kind, origin: self.origin, piece: None });
+    }
+
+    /// One message a code and statement.
+    pub(super) fn complain(&mut self, code: &'static Code, message: String) {
+        let key = (code.id, self.origin);
+        if !self.complaints.contains(&key) && self.complaints.len() < MAX_COMPLAINTS {
+            self.complaints.push(key);
+            self.sink.push(at_origin(code, &self.cl.origins, self.origin, message));
+        }
+    }
+
+    pub(super) fn feed_trouble(&mut self, trouble: &FeedTrouble) -> FeedWord {
+        let diagnostic = trouble.diagnostic(&self.cl.origins, self.origin);
+        let key = (diagnostic.code.id, self.origin);
+        if !self.complaints.contains(&key) && self.complaints.len() < MAX_COMPLAINTS {
+            self.complaints.push(key);
+            self.sink.push(diagnostic);
+        }
+        FeedWord::PerMinute(1)
+    }
+
+    fn record(&mut self, index: usize, record: &Record, fitted: &[Option<Arc<Fitted>>]) {
+        match &record.kind {
+            RecordKind::BeginOperation(operation) => self.begin_operation(*operation),
+            RecordKind::EndOperation(_) => {}
+            RecordKind::LoadTool(tool) => self.load_tool(*tool),
+            RecordKind::Spindle(spindle) => self.spindle(*spindle),
+            RecordKind::Feed(feed) => self.set_feed(*feed),
+            RecordKind::Coolant(coolant) => self.coolant(*coolant),
+            RecordKind::Dwell(seconds) => self.event(BlockKind::Dwell(*seconds)),
+            RecordKind::Stop => self.event(BlockKind::Stop),
+            RecordKind::OptionalStop => self.optional_stop(),
+            RecordKind::Comment(text) => self.event(BlockKind::Comment(text.clone())),
+            RecordKind::Insert(text) => self.event(BlockKind::Insert(text.clone())),
+            RecordKind::From(point) => self.from(*point),
+            RecordKind::Rapid(point) => self.rapid_record(self.aim(index, *point, fitted)),
+            RecordKind::Linear(point) => self.linear_record(self.aim(index, *point, fitted)),
+            RecordKind::Contour(contour) => {
+                if let Some(Some(fitted)) = fitted.get(index) {
+                    self.contour(contour, fitted);
+                }
+            }
+        }
+    }
+
+    fn begin_operation(&mut self, index: u32) {
+        self.operation = index;
+        let Some(operation) = self.cl.operations.get(index as usize) else { return };
+        self.event(BlockKind::BeginOperation(operation.name.clone()));
+        let Band { into, out } = operation.band;
+        let given = self.capabilities.path_tolerance.map(|p| p.share * into.min(out)).filter(|p| *p > 0.0);
+        self.event(BlockKind::PathTolerance(given));
+    }
+
+    fn load_tool(&mut self, tool: Handle<crate::ir::Tool>) {
+        let index = self.tools.index(tool);
+        self.event(BlockKind::ToolChange(index));
+        self.forget();
+        self.rpm = 0.0;
+    }
+
+    fn spindle(&mut self, spindle: Spindle) {
+        self.rpm = match spindle {
+            Spindle::Off => 0.0,
+            Spindle::On { rpm, .. } => rpm,
+        };
+        if let (Spindle::On { rpm, .. }, Some((low, high))) = (spindle, self.capabilities.spindle)
+            && !(low..=high).contains(&rpm)
+        {
+            let message = format!("the spindle turns at {low} to {high} rev/min, not at {rpm}");
+            self.complain(&codes::lowering::SPINDLE_RANGE, message);
+        }
+        self.event(BlockKind::Spindle(spindle));
+    }
+
+    fn set_feed(&mut self, feed: Feed) {
+        if matches!(feed, Feed::PerRevolution(_)) && !self.capabilities.feed_per_revolution {
+            let message = format!(
+                "`{}` has no feed per revolution: it is given per minute, for the spindle speed of each cut",
+                self.capabilities.name
+            );
+            self.complain(&codes::lowering::NO_FEED_PER_REVOLUTION, message);
+        }
+        self.feed = Some(feed);
+    }
+
+    fn coolant(&mut self, coolant: Coolant) {
+        let possible = match coolant {
+            Coolant::Off => self.capabilities.flood || self.capabilities.mist,
+            Coolant::Flood => self.capabilities.flood,
+            Coolant::Mist => self.capabilities.mist,
+        };
+        if possible {
+            self.event(BlockKind::Coolant(coolant));
+            return;
+        }
+        let other = match coolant {
+            Coolant::Mist if self.capabilities.flood => Some(Coolant::Flood),
+            Coolant::Flood if self.capabilities.mist => Some(Coolant::Mist),
+            _ => None,
+        };
+        let name = &self.capabilities.name;
+        if coolant != Coolant::Off {
+            let instead = if other.is_some() { "the other kind is used" } else { "none is switched on" };
+            let message = format!("`{name}` cannot switch this coolant; {instead}");
+            self.complain(&codes::lowering::COOLANT, message);
+        }
+        if let Some(other) = other {
+            self.event(BlockKind::Coolant(other));
+        }
+    }
+
+    fn optional_stop(&mut self) {
+        if self.capabilities.optional_stop {
+            self.event(BlockKind::OptionalStop);
+        } else {
+            let message = format!("`{}` has no optional stop; it stops here always", self.capabilities.name);
+            self.complain(&codes::lowering::OPTIONAL_STOP, message);
+            self.event(BlockKind::Stop);
+        }
+    }
+
+    fn from(&mut self, point: Point3) {
+        let [x, y, z] = self.round(point);
+        self.at = [Some(x), Some(y), Some(z), self.at[3]];
+    }
+
+    /// A point in linear steps.
+    fn round(&mut self, point: Point3) -> [i64; 3] {
+        [point.x, point.y, point.z].map(|mm| self.linear(mm))
+    }
+
+    pub(super) fn linear(&mut self, mm: f64) -> i64 {
+        let grid = &self.capabilities.grid;
+        match number::steps(mm / grid.unit.in_mm(), grid.linear_decimals) {
+            Some(steps) => steps,
+            None => {
+                self.complain(&codes::lowering::TOO_LARGE, format!("{mm} mm is beyond any axis word"));
+                0
+            }
+        }
+    }
+
+    /// Where a straight move ends: on the first vertex of the contour it leads to, where the contour starts
+    /// right there.
+    fn aim(&mut self, index: usize, point: Point3, fitted: &[Option<Arc<Fitted>>]) -> [i64; 3] {
+        let [x, y, z] = self.round(point);
+        let next = self.cl.records.get(index + 1..).unwrap_or_default().iter().zip(index + 1..).find_map(|(r, i)| {
+            match &r.kind {
+                RecordKind::Linear(p) | RecordKind::Rapid(p) if (p.xy() - point.xy()).norm() == 0.0 => None,
+                RecordKind::Contour(c) if c.entry == Lead::None => Some(Some((i, c))),
+                _ => Some(None),
+            }
+        });
+        let Some(Some((target, contour))) = next else { return [x, y, z] };
+        let (start, _) = contour.curve.domain();
+        let near = (contour.curve.at(start).p - point.xy()).norm() < self.capabilities.grid.linear_step();
+        match fitted.get(target) {
+            Some(Some(fit)) if near => [fit.fit.start[0], fit.fit.start[1], z],
+            _ => [x, y, z],
+        }
+    }
+
+    fn rapid_record(&mut self, [x, y, z]: [i64; 3]) {
+        let turn = self.cartesian_turn();
+        self.rapid(Position { x, y, z, r: turn });
+    }
+
+    /// Rotary position of a Cartesian move.
+    pub(super) fn cartesian_turn(&self) -> i64 {
+        if self.capabilities.rotary.is_none() {
+            return 0;
+        }
+        rotary::nearest_turn(self.at[3].unwrap_or(0), &self.capabilities.grid)
+    }
+
+    /// Z first when it rises or is not known, last when it falls.
+    pub(super) fn rapid(&mut self, to: Position) {
+        let rises = self.at[2].is_none_or(|z| to.z > z);
+        if rises {
+            self.rapid_axes(to, axes::Z);
+        }
+        self.rapid_axes(to, axes::X | axes::Y | axes::ROTARY);
+        if !rises {
+            self.rapid_axes(to, axes::Z);
+        }
+    }
+
+    /// Moves those of these axes that are not there yet.
+    pub(super) fn rapid_axes(&mut self, to: Position, wanted: u8) {
+        let ends = [to.x, to.y, to.z, to.r];
+        let mut moved = 0;
+        for (i, end) in ends.into_iter().enumerate() {
+            if wanted & (1 << i) != 0 && self.at[i] != Some(end) {
+                moved |= 1 << i;
+                self.at[i] = Some(end);
+            }
+        }
+        if moved != 0 {
+            let to = self.here();
+            self.push(Motion::Rapid { to, axes: moved });
+        }
+    }
+
+    /// Known position; what is not known is 0.
+    pub(super) fn here(&self) -> Position {
+        let [x, y, z, r] = self.at.map(|v| v.unwrap_or(0));
+        Position { x, y, z, r }
+    }
+
+    fn linear_record(&mut self, [x, y, z]: [i64; 3]) {
+        let turn = self.cartesian_turn();
+        if self.at[3] != Some(turn) {
+            self.rapid_axes(Position { r: turn, ..self.here() }, axes::ROTARY);
+        }
+        let feed = self.linear_feed();
+        self.line(Position { x, y, z, r: turn }, feed);
+    }
+
+    /// A straight cut; nothing when it has no length.
+    pub(super) fn line(&mut self, to: Position, feed: FeedWord) {
+        let end = [to.x, to.y, to.z, to.r].map(Some);
+        if self.at != end {
+            self.at = end;
+            self.push(Motion::Line { to, feed });
+        }
+    }
+
+    pub(super) fn linear_feed(&mut self) -> FeedWord {
+        match feed::linear(self.feed, self.rpm, self.capabilities) {
+            Ok(word) => word,
+            Err(trouble) => self.feed_trouble(&trouble),
+        }
+    }
+
+    pub(super) fn plunge_feed(&mut self, contour: &Contour) -> FeedWord {
+        match contour.plunge_feed {
+            None => self.linear_feed(),
+            Some(value) => match feed::minute_word(value, self.capabilities) {
+                Ok(word) => word,
+                Err(trouble) => self.feed_trouble(&trouble),
+            },
+        }
+    }
+
+    /// Pushes a motion and checks it.
+    pub(super) fn push(&mut self, motion: Motion) {
+        self.check(&motion);
+        self.blocks.push(Block { kind: BlockKind::Motion(motion), origin: self.origin, piece: self.piece });
+    }
+
+    fn check(&mut self, motion: &Motion) {
+        let (to, moved) = match motion {
+            Motion::Rapid { to, axes } => (*to, *axes),
+            Motion::Line { to, .. } | Motion::Arc { to, .. } => (*to, axes::X | axes::Y | axes::Z | axes::ROTARY),
+            Motion::Nurbs { .. } => return,
+        };
+        let ranges = self.capabilities.ranges;
+        let values = [to.x, to.y, to.z, to.r];
+        for (i, value) in values.into_iter().enumerate().filter(|(i, _)| moved & (1 << i) != 0) {
+            let limit = if i == 3 { ranges.rotary } else { ranges.linear };
+            if value.abs() > limit {
+                self.too_large(i, value, limit);
+            } else if let Some(Some(range)) = self.capabilities.travel.get(i) {
+                self.check_travel(i, value, *range);
+            }
+        }
+        if let Motion::Arc { centre, .. } = motion
+            && centre.iter().any(|c| c.abs() > ranges.centre)
+        {
+            self.complain(&codes::lowering::TOO_LARGE, "an arc centre is beyond the range of its words".into());
+        }
+    }
+
+    fn too_large(&mut self, axis: usize, value: i64, limit: i64) {
+        let decimals =
+            if axis == 3 { self.capabilities.grid.rotary_decimals } else { self.capabilities.grid.linear_decimals };
+        let message = format!(
+            "{} = {} is larger than the word takes ({})",
+            AXIS_NAMES[axis],
+            number::plain(value, decimals),
+            number::plain(limit, decimals)
+        );
+        self.complain(&codes::lowering::TOO_LARGE, message);
+    }
+
+    fn check_travel(&mut self, axis: usize, value: i64, (low, high): (f64, f64)) {
+        let mm = value as f64 * self.capabilities.grid.linear_step();
+        if !(low..=high).contains(&mm) {
+            let message =
+                format!("{} = {mm:.4} mm is outside the travel of {low} to {high} mm", AXIS_NAMES[axis]);
+            self.complain(&codes::lowering::OUT_OF_TRAVEL, message);
+        }
+    }
+}
+
+const AXIS_NAMES: [&str; 4] = ["X", "Y", "Z", "the rotary axis"];
