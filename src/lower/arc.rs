@@ -105,7 +105,11 @@ fn split(arc: &GridArc, count: usize, scale: i64) -> Vec<GridArc> {
     let mut parts = Vec::with_capacity(count);
     let mut start = arc.start;
     for index in 1..=count {
-        let to = if index == count { arc.to } else { joint(arc, sweep * index as f64 / count as f64, sweep / count as f64, scale) };
+        let to = if index == count {
+            arc.to
+        } else {
+            joint(arc, sweep * index as f64 / count as f64, sweep / count as f64, scale)
+        };
         let moved = [(start[0] - arc.start[0]) * scale, (start[1] - arc.start[1]) * scale];
         let centre = [arc.centre[0] - moved[0], arc.centre[1] - moved[1]];
         if to != start || count == 1 {

@@ -146,7 +146,11 @@ fn legal(contour: &Contour, capabilities: &Capabilities, demotions: &mut Vec<Dem
     let round = if capabilities.arcs { "arcs" } else { "lines" };
     match contour.interpolation {
         Interpolation::RTheta if !polar_possible(contour, capabilities) => {
-            let why = if capabilities.rotary.is_some() { "this cut is entered from the side" } else { "it has no rotary axis" };
+            let why = if capabilities.rotary.is_some() {
+                "this cut is entered from the side"
+            } else {
+                "it has no rotary axis"
+            };
             demotions.push((
                 &codes::lowering::NO_ROTARY,
                 format!("RTHETA is not possible on `{name}`: {why}; the path is made of {round}"),
@@ -190,13 +194,17 @@ fn fit_as(
             fit::arcs(tube, &grid, contour.exact_dwells, start).map(|f| (f, Interpolation::Circular))
         }
         Interpolation::RTheta => fit::spirals(tube, &grid, start).map(|f| (f, Interpolation::RTheta)),
-        Interpolation::Nurbs => fit::nurbs(tube, &grid, start).map(|f| (f, Interpolation::Nurbs)),
+        Interpolation::Nurbs => fit_as(tube, contour, Interpolation::Auto, capabilities),
         Interpolation::Auto => fewest(tube, contour, capabilities),
     }
 }
 
 /// The fewest blocks that the target can do; among equals the smaller deviation, then the simpler motion.
-fn fewest(tube: &Tube, contour: &Contour, capabilities: &Capabilities) -> Result<(Fit, Interpolation), FitError> {
+fn fewest(
+    tube: &Tube,
+    contour: &Contour,
+    capabilities: &Capabilities,
+) -> Result<(Fit, Interpolation), FitError> {
     let mut kinds = Vec::new();
     if capabilities.arcs {
         kinds.push(Interpolation::Circular);

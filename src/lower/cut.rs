@@ -46,7 +46,13 @@ impl Emitter<'_> {
         if let Some(entry) = entry {
             self.lead(&entry, Position { x: fit.start[0], y: fit.start[1], z: level, r: turn }, feed);
         }
-        self.chain(contour, fitted, z, Position { x: fit.start[0], y: fit.start[1], z: level, r: turn }, feed);
+        self.chain(
+            contour,
+            fitted,
+            z,
+            Position { x: fit.start[0], y: fit.start[1], z: level, r: turn },
+            feed,
+        );
         if let Some(exit) = exit {
             self.lead(&exit, Position { x: exit.far[0], y: exit.far[1], z: level, r: turn }, feed);
         }
@@ -116,8 +122,12 @@ impl Emitter<'_> {
             match primitive {
                 Primitive::Line { .. } | Primitive::Spiral { .. } => self.line(to, feed),
                 Primitive::Arc { centre, clockwise, .. } => {
-                    let arc =
-                        GridArc { start: [from.x, from.y], to: [x, y], centre: *centre, clockwise: *clockwise };
+                    let arc = GridArc {
+                        start: [from.x, from.y],
+                        to: [x, y],
+                        centre: *centre,
+                        clockwise: *clockwise,
+                    };
                     self.arc(arc, from, feed);
                 }
                 Primitive::Nurbs { order, points, knots } => self.curve(*order, points, knots, from, feed),
@@ -153,7 +163,14 @@ impl Emitter<'_> {
         }
     }
 
-    fn curve(&mut self, order: u8, points: &[([i64; 2], f64)], knots: &[f64], from: Position, feed: FeedWord) {
+    fn curve(
+        &mut self,
+        order: u8,
+        points: &[([i64; 2], f64)],
+        knots: &[f64],
+        from: Position,
+        feed: FeedWord,
+    ) {
         let curve = u32::try_from(self.nurbs.len()).unwrap_or(u32::MAX);
         let points = points.iter().map(|&([x, y], w)| (Position { x, y, ..from }, w)).collect();
         self.nurbs.push(Nurbs { order, points, knots: knots.to_vec() });
@@ -167,7 +184,8 @@ impl Emitter<'_> {
         let sense = if self.capabilities.rotary.is_some_and(|r| r.reversed) { -1 } else { 1 };
         let here = self.at[3].unwrap_or(0) * sense;
         let shift = rotary::shift(fit.start[1], here, &grid);
-        let place = |[radius, angle]: [i64; 2]| Position { x: radius, y: 0, z: level, r: (angle + shift) * sense };
+        let place =
+            |[radius, angle]: [i64; 2]| Position { x: radius, y: 0, z: level, r: (angle + shift) * sense };
         let start = place(fit.start);
         let end = place(path::last_end(fit));
         let entry = self.radial(contour.entry, contour, contour.curve.domain().0);
@@ -190,7 +208,8 @@ impl Emitter<'_> {
     }
 
     fn polar_feed(&mut self, step: &feed::PolarMove) -> FeedWord {
-        let word = feed::per_minute(self.feed, self.rpm).and_then(|f| feed::polar(f, step, self.capabilities));
+        let word =
+            feed::per_minute(self.feed, self.rpm).and_then(|f| feed::polar(f, step, self.capabilities));
         match word {
             Ok(word) => word,
             Err(trouble) => self.feed_trouble(&trouble),

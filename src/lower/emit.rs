@@ -58,7 +58,12 @@ pub(super) struct Emitter<'a> {
 }
 
 impl<'a> Emitter<'a> {
-    fn new(cl: &'a Cl, capabilities: &'a Capabilities, sink: &'a mut Sink, origin: Handle<Origin>) -> Emitter<'a> {
+    fn new(
+        cl: &'a Cl,
+        capabilities: &'a Capabilities,
+        sink: &'a mut Sink,
+        origin: Handle<Origin>,
+    ) -> Emitter<'a> {
         let mut emitter = Emitter {
             cl,
             capabilities,
@@ -132,8 +137,14 @@ impl<'a> Emitter<'a> {
             RecordKind::Comment(text) => self.event(BlockKind::Comment(text.clone())),
             RecordKind::Insert(text) => self.event(BlockKind::Insert(text.clone())),
             RecordKind::From(point) => self.from(*point),
-            RecordKind::Rapid(point) => self.rapid_record(self.aim(index, *point, fitted)),
-            RecordKind::Linear(point) => self.linear_record(self.aim(index, *point, fitted)),
+            RecordKind::Rapid(point) => {
+                let end = self.aim(index, *point, fitted);
+                self.rapid_record(end);
+            }
+            RecordKind::Linear(point) => {
+                let end = self.aim(index, *point, fitted);
+                self.linear_record(end);
+            }
             RecordKind::Contour(contour) => {
                 if let Some(Some(fitted)) = fitted.get(index) {
                     self.contour(contour, fitted);
@@ -244,13 +255,13 @@ impl<'a> Emitter<'a> {
     /// right there.
     fn aim(&mut self, index: usize, point: Point3, fitted: &[Option<Arc<Fitted>>]) -> [i64; 3] {
         let [x, y, z] = self.round(point);
-        let next = self.cl.records.get(index + 1..).unwrap_or_default().iter().zip(index + 1..).find_map(|(r, i)| {
-            match &r.kind {
+        let next = self.cl.records.get(index + 1..).unwrap_or_default().iter().zip(index + 1..).find_map(
+            |(r, i)| match &r.kind {
                 RecordKind::Linear(p) | RecordKind::Rapid(p) if (p.xy() - point.xy()).norm() == 0.0 => None,
                 RecordKind::Contour(c) if c.entry == Lead::None => Some(Some((i, c))),
                 _ => Some(None),
-            }
-        });
+            },
+        );
         let Some(Some((target, contour))) = next else { return [x, y, z] };
         let (start, _) = contour.curve.domain();
         let near = (contour.curve.at(start).p - point.xy()).norm() < self.capabilities.grid.linear_step();
@@ -351,7 +362,9 @@ impl<'a> Emitter<'a> {
     fn check(&mut self, motion: &Motion) {
         let (to, moved) = match motion {
             Motion::Rapid { to, axes } => (*to, *axes),
-            Motion::Line { to, .. } | Motion::Arc { to, .. } => (*to, axes::X | axes::Y | axes::Z | axes::ROTARY),
+            Motion::Line { to, .. } | Motion::Arc { to, .. } => {
+                (*to, axes::X | axes::Y | axes::Z | axes::ROTARY)
+            }
             Motion::Nurbs { .. } => return,
         };
         let ranges = self.capabilities.ranges;
@@ -367,13 +380,19 @@ impl<'a> Emitter<'a> {
         if let Motion::Arc { centre, .. } = motion
             && centre.iter().any(|c| c.abs() > ranges.centre)
         {
-            self.complain(&codes::lowering::TOO_LARGE, "an arc centre is beyond the range of its words".into());
+            self.complain(
+                &codes::lowering::TOO_LARGE,
+                "an arc centre is beyond the range of its words".into(),
+            );
         }
     }
 
     fn too_large(&mut self, axis: usize, value: i64, limit: i64) {
-        let decimals =
-            if axis == 3 { self.capabilities.grid.rotary_decimals } else { self.capabilities.grid.linear_decimals };
+        let decimals = if axis == 3 {
+            self.capabilities.grid.rotary_decimals
+        } else {
+            self.capabilities.grid.linear_decimals
+        };
         let message = format!(
             "{} = {} is larger than the word takes ({})",
             AXIS_NAMES[axis],

@@ -58,7 +58,11 @@ pub(super) fn per_minute(feed: Option<Feed>, rpm: f64) -> Result<f64, FeedTroubl
 }
 
 /// The word for a move of the linear axes alone.
-pub(super) fn linear(feed: Option<Feed>, rpm: f64, capabilities: &Capabilities) -> Result<FeedWord, FeedTrouble> {
+pub(super) fn linear(
+    feed: Option<Feed>,
+    rpm: f64,
+    capabilities: &Capabilities,
+) -> Result<FeedWord, FeedTrouble> {
     match feed {
         Some(Feed::PerRevolution(value)) if capabilities.feed_per_revolution => {
             if rpm <= 0.0 {
@@ -95,7 +99,11 @@ pub(super) struct PolarMove {
 }
 
 /// The word that makes the cutter follow `step` at `value` mm/min along the path in the part.
-pub(super) fn polar(value: f64, step: &PolarMove, capabilities: &Capabilities) -> Result<FeedWord, FeedTrouble> {
+pub(super) fn polar(
+    value: f64,
+    step: &PolarMove,
+    capabilities: &Capabilities,
+) -> Result<FeedWord, FeedTrouble> {
     let grid = &capabilities.grid;
     if step.length <= 0.0 {
         return minute_word(value, capabilities);

@@ -18,11 +18,19 @@ pub(super) struct LeadPath {
 }
 
 /// The lead into `start`, where the chain has the unit tangent `tangent`; `step` is a linear step in mm.
-pub(super) fn entry(lead: Lead, start: [i64; 2], tangent: Option<Vec2>, part: Side, step: f64) -> Option<LeadPath> {
+pub(super) fn entry(
+    lead: Lead,
+    start: [i64; 2],
+    tangent: Option<Vec2>,
+    part: Side,
+    step: f64,
+) -> Option<LeadPath> {
     let tangent = tangent?;
     match lead {
         Lead::None | Lead::Plunge => None,
-        Lead::Line(length) => Some(LeadPath { far: add(start, round(-tangent * (length / step))), arc: None }),
+        Lead::Line(length) => {
+            Some(LeadPath { far: add(start, round(-tangent * (length / step))), arc: None })
+        }
         Lead::Arc(radius) => {
             let (spoke, clockwise) = spoke(tangent, part, radius / step)?;
             // A quarter earlier on the circle: the spoke turned back.
@@ -34,7 +42,13 @@ pub(super) fn entry(lead: Lead, start: [i64; 2], tangent: Option<Vec2>, part: Si
 }
 
 /// The lead out of `end`.
-pub(super) fn exit(lead: Lead, end: [i64; 2], tangent: Option<Vec2>, part: Side, step: f64) -> Option<LeadPath> {
+pub(super) fn exit(
+    lead: Lead,
+    end: [i64; 2],
+    tangent: Option<Vec2>,
+    part: Side,
+    step: f64,
+) -> Option<LeadPath> {
     let tangent = tangent?;
     match lead {
         Lead::None | Lead::Plunge => None,

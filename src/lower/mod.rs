@@ -31,7 +31,8 @@ use crate::target::{Capabilities, TargetProgram};
 pub fn lower(cl: &Cl, capabilities: &Capabilities, sink: &mut Sink) -> Option<TargetProgram> {
     let mut messages = Sink::default();
     let fitted = contour::fit_all(cl, capabilities, &mut messages);
-    let program = if messages.has_errors() { None } else { emit::program(cl, capabilities, &fitted, &mut messages) };
+    let program =
+        if messages.has_errors() { None } else { emit::program(cl, capabilities, &fitted, &mut messages) };
     let failed = messages.has_errors();
     sink.append(messages);
     program.filter(|_| !failed)

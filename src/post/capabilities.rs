@@ -16,7 +16,11 @@ impl Dialect {
     ///
     /// # Errors
     /// A rotary axis that the control does not have, or an option that cannot be understood.
-    pub fn capabilities(&self, unit: LengthUnit, machine: Option<&Machine>) -> Result<Capabilities, Diagnostic> {
+    pub fn capabilities(
+        &self,
+        unit: LengthUnit,
+        machine: Option<&Machine>,
+    ) -> Result<Capabilities, Diagnostic> {
         let spec = &self.spec;
         let rotary = match machine.and_then(|m| m.rotary) {
             Some(rotary) => Some(self.rotary(rotary)?),
@@ -97,7 +101,11 @@ impl Dialect {
         if !rules.letters.contains(letter) {
             return Err(Diagnostic::global(
                 &codes::post::MACHINE_OPTION,
-                format!("`{letter}` is no rotary axis of {}; its rotary axes are {}", self.title(), rules.letters),
+                format!(
+                    "`{letter}` is no rotary axis of {}; its rotary axes are {}",
+                    self.title(),
+                    rules.letters
+                ),
             ));
         }
         Ok(RotaryAxis { letter, reversed: wanted.reversed })
@@ -120,7 +128,9 @@ impl Dialect {
         text.trim().parse().ok().filter(|v| (0.0..=0.9).contains(v)).ok_or_else(|| {
             Diagnostic::global(
                 &codes::post::MACHINE_OPTION,
-                format!("SHARE is the part of the tolerance that the control may use, from 0 to 0.9, not `{text}`"),
+                format!(
+                    "SHARE is the part of the tolerance that the control may use, from 0 to 0.9, not `{text}`"
+                ),
             )
         })
     }

@@ -39,7 +39,8 @@ fn check_patterns(dialect: &Dialect, errors: &mut Vec<Diagnostic>) {
                 errors.push(at(dialect, &path, &codes::post::BAD_PATTERN, problem));
             }
         }
-        let wanted: &[&str] = if name == "arc" && !dialect.spec.arcs.enabled { &[] } else { &["x", "y", "z"] };
+        let wanted: &[&str] =
+            if name == "arc" && !dialect.spec.arcs.enabled { &[] } else { &["x", "y", "z"] };
         for axis in wanted.iter().filter(|axis| !items.iter().any(|i| i == *axis)) {
             let problem = format!("the pattern `{name}` has no word `{axis}`: that axis could never move");
             errors.push(at(dialect, &path, &codes::post::BAD_PATTERN, problem));
@@ -85,7 +86,8 @@ fn check_collision(dialect: &Dialect, items: &[String], path: &str, errors: &mut
 
 /// Words that keys name, and words the writer cannot do without.
 fn check_named_words(dialect: &Dialect, errors: &mut Vec<Diagnostic>) {
-    let named = [("dwell.word", &dialect.spec.dwell.word), ("cycle-dwell.word", &dialect.spec.cycle_dwell.word)];
+    let named =
+        [("dwell.word", &dialect.spec.dwell.word), ("cycle-dwell.word", &dialect.spec.cycle_dwell.word)];
     for (path, word) in named {
         if !dialect.spec.words.contains_key(word) {
             let message = format!("the word `{word}` is not in [words]");
@@ -128,7 +130,9 @@ fn check_tool_change(dialect: &Dialect, errors: &mut Vec<Diagnostic>) {
         let near = did_you_mean(name, change.blocks.keys().map(String::as_str))
             .map(|n| format!("; did you mean `{n}`?"))
             .unwrap_or_default();
-        let message = format!("`tool-change.order` names the block `{name}`, which is not in [tool-change.blocks]{near}");
+        let message = format!(
+            "`tool-change.order` names the block `{name}`, which is not in [tool-change.blocks]{near}"
+        );
         errors.push(at(dialect, "tool-change.order", &codes::post::BAD_PATTERN, message));
     }
 }

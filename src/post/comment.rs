@@ -54,7 +54,11 @@ impl Comments {
 
     /// A delimiter, `%` or a control character is never allowed, whatever a post file says.
     fn is_allowed(&self, c: char) -> bool {
-        self.allowed.contains(c) && c.is_ascii_graphic() && c != '%' && !self.open.contains(c) && !self.close.contains(c)
+        self.allowed.contains(c)
+            && c.is_ascii_graphic()
+            && c != '%'
+            && !self.open.contains(c)
+            && !self.close.contains(c)
     }
 
     fn is_active(&self, text: &str) -> bool {

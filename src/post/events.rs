@@ -136,7 +136,8 @@ impl<'a> Events<'a> {
         self.template("templates.header", &spec.templates.header, &context);
         self.writer.state.mode = Some(PER_MINUTE);
         let exact = &spec.path_control.exact;
-        let starts_exact = exact.is_empty() || spec.groups.values().any(|g| g.start.of(self.unit()) == *exact);
+        let starts_exact =
+            exact.is_empty() || spec.groups.values().any(|g| g.start.of(self.unit()) == *exact);
         if starts_exact {
             self.writer.state.path = Some(None);
         }
@@ -236,7 +237,9 @@ impl<'a> Events<'a> {
         self.writer.begin_line(true);
         match spindle {
             Spindle::Off => self.writer.text(words.off.as_bytes()),
-            Spindle::On { rpm, clockwise } => self.spindle_on(rpm, self.spindle_code(clockwise), &words.order),
+            Spindle::On { rpm, clockwise } => {
+                self.spindle_on(rpm, self.spindle_code(clockwise), &words.order)
+            }
         }
         self.writer.end_line();
     }
@@ -245,7 +248,8 @@ impl<'a> Events<'a> {
         let decimals = self.spindle.style.decimals;
         let range = self.writer.dialect.spec.range("spindle", self.unit());
         let Some(speed) = number::steps(rpm, decimals).filter(|s| (1..=range).contains(s)) else {
-            let message = format!("the spindle speed {rpm} rev/min does not fit the word `S` of this control");
+            let message =
+                format!("the spindle speed {rpm} rev/min does not fit the word `S` of this control");
             self.error(&codes::post::WORD_RANGE, message);
             return;
         };
@@ -273,7 +277,8 @@ impl<'a> Events<'a> {
         let range = self.writer.dialect.spec.range(&rules.word, self.unit());
         let steps = dwell_steps(seconds, rules).filter(|s| (0..=range).contains(s) && seconds <= rules.max);
         let Some(steps) = steps else {
-            let message = format!("a dwell of {seconds} s does not fit this control's word (at most {} s)", rules.max);
+            let message =
+                format!("a dwell of {seconds} s does not fit this control's word (at most {} s)", rules.max);
             self.error(&codes::post::WORD_RANGE, message);
             return;
         };
@@ -313,7 +318,9 @@ impl<'a> Events<'a> {
         let format = word(spec, "path-tolerance", false, unit);
         // Rounded down: the control never gets more than it was given.
         let decimals = format.style.decimals;
-        let down = |mm: f64| number::steps(mm / unit.in_mm() - 0.5 / crate::target::power_of_ten(decimals), decimals);
+        let down = |mm: f64| {
+            number::steps(mm / unit.in_mm() - 0.5 / crate::target::power_of_ten(decimals), decimals)
+        };
         let steps = tolerance.and_then(down).filter(|s| *s > 0 && !spec.path_control.tolerance.is_empty());
         if self.writer.state.path == Some(steps) {
             return;
@@ -372,12 +379,15 @@ impl<'a> Events<'a> {
     fn real(&mut self, format: &WordFormat, value: f64) {
         match number::steps(value, format.style.decimals) {
             Some(steps) => self.writer.number(format, steps),
-            None => self.error(&codes::post::WORD_RANGE, format!("{value} cannot be printed in a NURBS block")),
+            None => {
+                self.error(&codes::post::WORD_RANGE, format!("{value} cannot be printed in a NURBS block"))
+            }
         }
     }
 
     fn nurbs_point(&mut self, position: crate::target::Position) {
-        let words = [super::pattern::Slot::X, super::pattern::Slot::Y].map(|s| self.writer.table.words[s as usize].clone());
+        let words = [super::pattern::Slot::X, super::pattern::Slot::Y]
+            .map(|s| self.writer.table.words[s as usize].clone());
         self.writer.number(&words[0], position.x);
         self.writer.number(&words[1], position.y);
     }
@@ -456,8 +466,12 @@ impl<'a> Events<'a> {
     fn program_context(&self) -> ProgramContext {
         let spec = &self.writer.dialect.spec;
         let title = self.program.title.as_deref().unwrap_or_default();
-        let name: String =
-            title.chars().filter(char::is_ascii_alphanumeric).take(spec.file.name_max).collect::<String>().to_uppercase();
+        let name: String = title
+            .chars()
+            .filter(char::is_ascii_alphanumeric)
+            .take(spec.file.name_max)
+            .collect::<String>()
+            .to_uppercase();
         ProgramContext {
             title: spec.comments.clean(title),
             name: if name.is_empty() { "PART".into() } else { name },

@@ -1,8 +1,8 @@
 //! Finding, inheriting and checking post files.
 
+use super::check;
 use super::dialect::{Dialect, Spec};
 use super::tree::{self, Node, Table};
-use super::check;
 use crate::diag::{Diagnostic, Label, codes, did_you_mean};
 use crate::source::{FileError, FileId, FileProvider, SourceMap, Span};
 
@@ -59,20 +59,24 @@ pub fn load_with(
 }
 
 impl Loader<'_> {
-    fn dialect(&mut self, name_or_path: &str, overrides: &[(String, String)]) -> Result<Dialect, Vec<Diagnostic>> {
-    let mut tree = self.tree(name_or_path, None, None)?;
-    if !overrides.is_empty() {
-        tree = tree::merge(tree, self.overrides(overrides)?);
+    fn dialect(
+        &mut self,
+        name_or_path: &str,
+        overrides: &[(String, String)],
+    ) -> Result<Dialect, Vec<Diagnostic>> {
+        let mut tree = self.tree(name_or_path, None, None)?;
+        if !overrides.is_empty() {
+            tree = tree::merge(tree, self.overrides(overrides)?);
+        }
+        let user = self.user;
+        let spec = typed(&tree).map_err(|message| vec![incomplete(name_or_path, &message)])?;
+        let dialect = Dialect { name: stem(name_or_path), spec, tree };
+        if dialect.spec.post.is_abstract {
+            return Err(vec![unknown(name_or_path, None)]);
+        }
+        let errors = check::check(&dialect, user);
+        if errors.is_empty() { Ok(dialect) } else { Err(errors) }
     }
-    let user = self.user;
-    let spec = typed(&tree).map_err(|message| vec![incomplete(name_or_path, &message)])?;
-    let dialect = Dialect { name: stem(name_or_path), spec, tree };
-    if dialect.spec.post.is_abstract {
-        return Err(vec![unknown(name_or_path, None)]);
-    }
-    let errors = check::check(&dialect, user);
-    if errors.is_empty() { Ok(dialect) } else { Err(errors) }
-}
 }
 
 /// Places in built-in files have this file number and those below it, until a message needs them.
@@ -84,7 +88,8 @@ fn name_builtins(mut errors: Vec<Diagnostic>, sources: &mut SourceMap) -> Vec<Di
     let mut place = |label: &mut Label| {
         let index = (FIRST_BUILTIN - label.span.file.0) as usize;
         if let (Some((name, text)), Some(slot)) = (BUILTIN.get(index), given.get_mut(index)) {
-            label.span.file = *slot.get_or_insert_with(|| sources.add(format!("builtin {name}.post.toml"), *text));
+            label.span.file =
+                *slot.get_or_insert_with(|| sources.add(format!("builtin {name}.post.toml"), *text));
         }
     };
     for error in &mut errors {
@@ -200,6 +205,7 @@ fn unreadable(name: &str, error: &FileError, at: Option<Span>) -> Diagnostic {
         FileError::NotFound => "there is no such file".to_owned(),
         FileError::OutsideRoot => "it lies outside the project's root".to_owned(),
         FileError::NotUtf8(byte) => format!("byte {byte} is not UTF-8"),
+        FileError::TooLarge(limit) => format!("it is larger than {limit} bytes"),
         FileError::Other(text) => text.clone(),
     };
     let message = format!("the post file `{name}` cannot be read: {reason}");

@@ -19,6 +19,8 @@ pub mod pattern;
 pub mod schema;
 mod table;
 pub mod template;
+#[cfg(test)]
+mod tests;
 pub mod tree;
 mod write;
 mod writer;

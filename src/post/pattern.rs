@@ -71,7 +71,20 @@ pub enum Item {
 
 /// The names of items, for «did you mean».
 pub const ITEM_NAMES: &[&str] = &[
-    "motion", "feed-mode", "direction", "/", "x", "y", "z", "rotary", "i", "j", "cx", "cy", "radius", "feed",
+    "motion",
+    "feed-mode",
+    "direction",
+    "/",
+    "x",
+    "y",
+    "z",
+    "rotary",
+    "i",
+    "j",
+    "cx",
+    "cy",
+    "radius",
+    "feed",
 ];
 
 impl Item {

@@ -51,7 +51,11 @@ const fn key(name: &'static str, shape: Shape, doc: &'static str) -> Key {
 
 /// The keys at the top of a post file.
 pub const ROOT: &[Key] = &[
-    key("inherits", Shape::Text, "built-in post, or post file relative to this one, whose keys hold where this file is silent"),
+    key(
+        "inherits",
+        Shape::Text,
+        "built-in post, or post file relative to this one, whose keys hold where this file is silent",
+    ),
     key("post", Shape::Table(POST), "who it is"),
     key("file", Shape::Table(FILE), "the file as a whole"),
     key("line", Shape::Table(LINE), "the line as a whole"),
@@ -62,7 +66,11 @@ pub const ROOT: &[Key] = &[
     key("codes", Shape::Table(CODES), "motion and feed-mode codes"),
     key("patterns", Shape::Table(PATTERNS), "what a motion block prints, in order"),
     key("groups", Shape::Tables(GROUP), "modal groups of the control, by name"),
-    key("safe-start", Shape::TextLists, "groups whose start codes the variable `safe_start` prints, line by line"),
+    key(
+        "safe-start",
+        Shape::TextLists,
+        "groups whose start codes the variable `safe_start` prints, line by line",
+    ),
     key("arcs", Shape::Table(ARCS), "circular interpolation"),
     key("feed", Shape::Table(FEED), "feeds"),
     key("rotary", Shape::Table(ROTARY), "rotary table"),
@@ -77,14 +85,22 @@ pub const ROOT: &[Key] = &[
     key("limits", Shape::Table(LIMITS), "limits of the machine"),
     key("tool-change", Shape::Table(TOOL_CHANGE), "what a tool change prints"),
     key("templates", Shape::Table(TEMPLATES), "start and end of the program"),
-    key("options", Shape::Texts, "values that templates read as `options.NAME`; `--post-set` and MACHIN options override them"),
+    key(
+        "options",
+        Shape::Texts,
+        "values that templates read as `options.NAME`; `--post-set` and MACHIN options override them",
+    ),
 ];
 
 const POST: &[Key] = &[
     key("title", Shape::Text, "control and series, for people"),
     key("extension", Shape::Text, "of the NC file, without the point"),
     key("control", Shape::Text, "the control that reads the program back for the proof"),
-    key("confidence", Shape::Choice(&["interpreter", "manual", "published"]), "checked by the control's own interpreter, taken from its manual, or from published posts"),
+    key(
+        "confidence",
+        Shape::Choice(&["interpreter", "manual", "published"]),
+        "checked by the control's own interpreter, taken from its manual, or from published posts",
+    ),
     key("basis", Shape::Text, "what the facts rest on"),
     key("abstract", Shape::Flag, "only to be inherited from"),
 ];
@@ -100,7 +116,11 @@ const LINE: &[Key] = &[
     key("separator", Shape::Text, "between the words of a block"),
 ];
 const NUMBERING: &[Key] = &[
-    key("mode", Shape::Choice(&["none", "blocks", "lines"]), "nothing, or blocks but not comments and frame, or every line"),
+    key(
+        "mode",
+        Shape::Choice(&["none", "blocks", "lines"]),
+        "nothing, or blocks but not comments and frame, or every line",
+    ),
     key("prefix", Shape::Text, "before the number"),
     key("start", Shape::Integer(0, 99_999_999), "first number"),
     key("step", Shape::Integer(1, 10_000), "distance of numbers"),
@@ -114,7 +134,11 @@ const NUMBERS: &[Key] = &[
 ];
 const WORD: &[Key] = &[
     key("prefix", Shape::Text, "what stands before the number: `X`, `CR=`"),
-    key("decimals", Shape::IntegerByUnit(0, 9), "decimals; without them the word is an integer and never carries a point"),
+    key(
+        "decimals",
+        Shape::IntegerByUnit(0, 9),
+        "decimals; without them the word is an integer and never carries a point",
+    ),
     key("max", Shape::NumberByUnit(0.0, 1e12), "largest magnitude"),
     key("point", Shape::Choice(&["needed", "always", "digit"]), "as in `numbers`"),
     key("trailing-zeros", Shape::Flag, "as in `numbers`"),
@@ -139,7 +163,11 @@ const CODES: &[Key] = &[
     key("inverse-time", Shape::Text, "inverse time feed"),
 ];
 const PATTERNS: &[Key] = &[
-    key("rapid", Shape::TextList, "straight at rapid: names of words, `motion`, `feed-mode`, `direction`, `/` for a new line, `=TEXT` as it is"),
+    key(
+        "rapid",
+        Shape::TextList,
+        "straight at rapid: names of words, `motion`, `feed-mode`, `direction`, `/` for a new line, `=TEXT` as it is",
+    ),
     key("line", Shape::TextList, "straight at feed"),
     key("arc", Shape::TextList, "arc and helix"),
 ];
@@ -149,14 +177,30 @@ const GROUP: &[Key] = &[
 ];
 const ARCS: &[Key] = &[
     key("enabled", Shape::Flag, "the control has circular interpolation"),
-    key("form", Shape::Choice(&["incremental", "absolute", "radius"]), "centre from the start, centre in program coordinates, or radius"),
-    key("zero-offsets", Shape::Choice(&["keep", "drop"]), "a centre word that is zero is printed, or left out when the other is not zero"),
-    key("full-circle", Shape::Choice(&["bare", "one-end-word", "end-words", "split"]), "end words of a full circle: none, one, both; or no full circles"),
+    key(
+        "form",
+        Shape::Choice(&["incremental", "absolute", "radius"]),
+        "centre from the start, centre in program coordinates, or radius",
+    ),
+    key(
+        "zero-offsets",
+        Shape::Choice(&["keep", "drop"]),
+        "a centre word that is zero is printed, or left out when the other is not zero",
+    ),
+    key(
+        "full-circle",
+        Shape::Choice(&["bare", "one-end-word", "end-words", "split"]),
+        "end words of a full circle: none, one, both; or no full circles",
+    ),
     key("split", Shape::Integer(2, 16), "arcs a full circle is split in where the control has none"),
     key("max-sweep", Shape::Number(1.0, 360.0), "degrees in one block"),
     key("min-radius", Shape::Number(0.0, 1e6), "mm; smaller arcs become lines"),
     key("max-radius", Shape::Number(0.001, 1e9), "mm; larger arcs become lines"),
-    key("radius-tolerance", Shape::Number(1e-6, 1.0), "largest difference of start and end radius in printed numbers, mm"),
+    key(
+        "radius-tolerance",
+        Shape::Number(1e-6, 1.0),
+        "largest difference of start and end radius in printed numbers, mm",
+    ),
     key("helix", Shape::Flag, "Z may move in an arc block"),
 ];
 const FEED: &[Key] = &[
@@ -168,7 +212,11 @@ const ROTARY: &[Key] = &[
     key("enabled", Shape::Flag, "a rotary axis is possible"),
     key("letter", Shape::Text, "the usual letter"),
     key("letters", Shape::Text, "the letters that are possible"),
-    key("feed", Shape::Choice(&["linear-axes", "units-as-degrees"]), "what F means when a linear and the rotary axis move together"),
+    key(
+        "feed",
+        Shape::Choice(&["linear-axes", "units-as-degrees"]),
+        "what F means when a linear and the rotary axis move together",
+    ),
 ];
 const DWELL: &[Key] = &[
     key("code", Shape::Text, "before the time"),
@@ -181,7 +229,11 @@ const SPINDLE: &[Key] = &[
     key("clockwise", Shape::Text, "on, clockwise"),
     key("counter-clockwise", Shape::Text, "on, counter-clockwise"),
     key("off", Shape::Text, "off"),
-    key("order", Shape::Choice(&["speed-first", "code-first", "speed-only"]), "`S1000 M3`, `M3 S1000` or the speed alone"),
+    key(
+        "order",
+        Shape::Choice(&["speed-first", "code-first", "speed-only"]),
+        "`S1000 M3`, `M3 S1000` or the speed alone",
+    ),
 ];
 const COOLANT: &[Key] = &[
     key("flood", Shape::Text, "flood on; empty: the control has none"),
@@ -198,13 +250,21 @@ const COMMENTS: &[Key] = &[
     key("allowed", Shape::Text, "characters besides letters, digits and space"),
     key("upper-case", Shape::Flag, "letters are printed in upper case"),
     key("replace", Shape::Text, "stands for a character that is not allowed"),
-    key("max-length", Shape::Integer(0, 65_535), "characters of text in one comment, 0 without limit; longer ones are wrapped"),
+    key(
+        "max-length",
+        Shape::Integer(0, 65_535),
+        "characters of text in one comment, 0 without limit; longer ones are wrapped",
+    ),
     key("active-words", Shape::TextList, "words that the control would obey at the start of a comment"),
 ];
 const PATH_CONTROL: &[Key] = &[
     key("exact", Shape::Text, "exact path; empty: nothing to say"),
     key("tolerance", Shape::Text, "before the path tolerance; empty: the control has none"),
-    key("share", Shape::Number(0.0, 0.9), "part of an operation's band that the control may use; 0 asks for the exact path"),
+    key(
+        "share",
+        Shape::Number(0.0, 0.9),
+        "part of an operation's band that the control may use; 0 asks for the exact path",
+    ),
 ];
 const NURBS: &[Key] = &[
     key("form", Shape::Choice(&["none", "g06.2", "g5.2"]), "spelling"),

@@ -49,7 +49,8 @@ impl MotionTable {
     pub fn new(dialect: &Dialect, capabilities: &Capabilities) -> MotionTable {
         let spec = &dialect.spec;
         let unit = capabilities.grid.unit;
-        let mut words: [WordFormat; SLOTS] = Slot::ALL.map(|slot| word(spec, slot.name(), axis_modal(spec, slot), unit));
+        let mut words: [WordFormat; SLOTS] =
+            Slot::ALL.map(|slot| word(spec, slot.name(), axis_modal(spec, slot), unit));
         if let Some(rotary) = capabilities.rotary {
             let rotary_word = &mut words[Slot::Rotary as usize];
             if rotary_word.prefix.is_empty() {

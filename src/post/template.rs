@@ -83,7 +83,12 @@ fn pad(value: u64, width: usize) -> String {
 
 /// `1.25 | num(3)` → `1.25`; at most so many decimals.
 fn fixed(value: f64, decimals: u8) -> Result<String, minijinja::Error> {
-    number::steps(value, decimals.min(9)).map(|steps| number::plain(steps, decimals.min(9))).ok_or_else(|| {
-        minijinja::Error::new(ErrorKind::InvalidOperation, format!("{value} is not a number that can be printed"))
-    })
+    number::steps(value, decimals.min(9)).map(|steps| number::plain(steps, decimals.min(9))).ok_or_else(
+        || {
+            minijinja::Error::new(
+                ErrorKind::InvalidOperation,
+                format!("{value} is not a number that can be printed"),
+            )
+        },
+    )
 }

@@ -101,8 +101,11 @@ fn convert_table(file: FileId, table: &DeTable<'_>) -> Table {
         .iter()
         .map(|(key, value)| {
             let place = |r: core::ops::Range<usize>| Span::new(file, r.start, r.end);
-            let entry =
-                Entry { key: place(key.span()), value: place(value.span()), node: convert(file, value.get_ref()) };
+            let entry = Entry {
+                key: place(key.span()),
+                value: place(value.span()),
+                node: convert(file, value.get_ref()),
+            };
             (key.get_ref().clone().into_owned(), entry)
         })
         .collect()
@@ -152,8 +155,8 @@ fn join(path: &str, name: &str) -> String {
 
 fn unknown_key(name: &str, span: Span, keys: &[Key], path: &str) -> Diagnostic {
     let place = if path.is_empty() { "a post file".to_owned() } else { format!("[{path}]") };
-    let error =
-        Diagnostic::new(&codes::post::UNKNOWN_KEY, span, format!("{place} has no key `{name}`")).at("unknown key");
+    let error = Diagnostic::new(&codes::post::UNKNOWN_KEY, span, format!("{place} has no key `{name}`"))
+        .at("unknown key");
     match did_you_mean(name, keys.iter().map(|k| k.name)) {
         Some(near) => error.help(format!("did you mean `{near}`?")),
         None => {
@@ -222,7 +225,8 @@ fn check_by_unit(entry: &Entry, table: &Table, shape: Shape, path: &str, errors:
 
 fn check_leaf(value: &toml::Value, shape: Shape) -> Result<(), String> {
     let fits = match (shape, value) {
-        (Shape::Text | Shape::TextByUnit, toml::Value::String(_)) | (Shape::Flag, toml::Value::Boolean(_)) => true,
+        (Shape::Text | Shape::TextByUnit, toml::Value::String(_))
+        | (Shape::Flag, toml::Value::Boolean(_)) => true,
         (Shape::Integer(low, high) | Shape::IntegerByUnit(low, high), toml::Value::Integer(n)) => {
             (low..=high).contains(n)
         }

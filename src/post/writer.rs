@@ -6,7 +6,9 @@
 use super::dialect::{ArcForm, Dialect, FullCircleWords, NumberingMode};
 use super::number;
 use super::pattern::{Item, Slot};
-use super::table::{ARC_CCW, ARC_CW, INVERSE_TIME, LINE, MotionTable, PER_MINUTE, PER_REVOLUTION, RAPID, WordFormat};
+use super::table::{
+    ARC_CCW, ARC_CW, INVERSE_TIME, LINE, MotionTable, PER_MINUTE, PER_REVOLUTION, RAPID, WordFormat,
+};
 use crate::arena::Handle;
 use crate::diag::Diagnostic;
 use crate::ir::Origin;
@@ -61,7 +63,12 @@ pub(super) struct Writer<'a> {
 }
 
 impl<'a> Writer<'a> {
-    pub fn new(dialect: &'a Dialect, table: MotionTable, origin: Handle<Origin>, capacity: usize) -> Writer<'a> {
+    pub fn new(
+        dialect: &'a Dialect,
+        table: MotionTable,
+        origin: Handle<Origin>,
+        capacity: usize,
+    ) -> Writer<'a> {
         let limit = dialect.spec.line.max_length;
         Writer {
             dialect,

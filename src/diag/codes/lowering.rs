@@ -108,11 +108,8 @@ pub const OPTIONAL_STOP: Code = Code {
 };
 
 /// an arc was split.
-pub const SPLIT_ARC: Code = Code {
-    id: "N0609",
-    title: "an arc was split",
-    page: include_str!("../../../docs/diagnostics/N0609.md"),
-};
+pub const SPLIT_ARC: Code =
+    Code { id: "N0609", title: "an arc was split", page: include_str!("../../../docs/diagnostics/N0609.md") };
 
 /// All codes of this area.
 pub const ALL: &[&Code] = &[

@@ -3,11 +3,8 @@
 use crate::diag::Code;
 
 /// unknown post.
-pub const UNKNOWN_POST: Code = Code {
-    id: "E0701",
-    title: "unknown post",
-    page: include_str!("../../../docs/diagnostics/E0701.md"),
-};
+pub const UNKNOWN_POST: Code =
+    Code { id: "E0701", title: "unknown post", page: include_str!("../../../docs/diagnostics/E0701.md") };
 
 /// the post file is not TOML.
 pub const NOT_TOML: Code = Code {
