@@ -2,7 +2,7 @@
 //! the curve, and the derivatives of that.
 
 use super::minimax::{BLOCK, Row, WIDTH};
-use super::stretch::{Stretch, turn};
+use super::stretch::{Sample, Stretch, turn};
 use crate::geom::curve::Frenet;
 use crate::geom::{Point2, Vec2, cross, left};
 use crate::math;
@@ -14,12 +14,18 @@ pub(super) enum Hold {
     Free,
     /// Stays on the normal of its station.
     Station,
-    /// Stays where it is.
+    /// Stays where it is; rounding may slide it along the path.
     Point,
-    /// Slides along a circle (an arc that is kept exactly).
+    /// Stays where it is, on the grid already.
+    Vertex,
+    /// Slides along a circle (an arc that is kept exactly), beyond the span that is kept.
     Circle {
         /// Centre, mm.
         centre: Point2,
+        /// Least station.
+        from: f64,
+        /// Largest station.
+        to: f64,
     },
 }
 
@@ -44,14 +50,21 @@ impl Joint {
         let frame = stretch.at(s);
         Joint { s, e, hold, frame, p: frame.p + left(frame.t) * e }
     }
+    /// A joint on a circle moved along it to station `s`; any other joint as it is.
+    pub fn slid(self, stretch: &Stretch<'_>, s: f64) -> Joint {
+        match self.hold {
+            Hold::Circle { centre, from, to } => on_circle(stretch, &self, centre, s.clamp(from, to)),
+            _ => self,
+        }
+    }
     /// Derivatives of the position by station and by deviation.
     pub fn directions(&self) -> (Vec2, Vec2) {
         let along = self.frame.t * (self.frame.speed * (1.0 - self.e * self.frame.k));
         match self.hold {
             Hold::Free => (along, left(self.frame.t)),
             Hold::Station => (Vec2::zeros(), left(self.frame.t)),
-            Hold::Point => (Vec2::zeros(), Vec2::zeros()),
-            Hold::Circle { centre } => {
+            Hold::Point | Hold::Vertex => (Vec2::zeros(), Vec2::zeros()),
+            Hold::Circle { centre, .. } => {
                 let r = self.p - centre;
                 let tangent = left(r) * (1.0 / r.norm().max(1e-12));
                 (tangent * tangent.dot(&along).signum() * along.norm(), Vec2::zeros())
@@ -92,8 +105,6 @@ pub(super) struct Chain {
 pub(super) struct Drawn {
     /// Start, mm.
     pub from: Point2,
-    /// End, mm.
-    pub to: Point2,
     /// Unit vector from start to end.
     pub chord: Vec2,
     /// Distance from start to end, mm.
@@ -108,7 +119,7 @@ impl Drawn {
         let d = to - from;
         let length = d.norm();
         let chord = if length > 0.0 { d / length } else { Vec2::new(1.0, 0.0) };
-        Drawn { from, to, chord, length, half }
+        Drawn { from, chord, length, half }
     }
     /// Curvature, left positive, 1/mm.
     pub fn curvature(&self) -> f64 {
@@ -191,6 +202,11 @@ impl Chain {
         self.members.len()
     }
 
+    /// Whether arc i is kept exactly.
+    pub fn is_exact(&self, i: usize) -> bool {
+        matches!(self.members[i], Member::Exact { .. })
+    }
+
     /// The joint at the end of arc i.
     pub fn end(&self, i: usize) -> usize {
         if i + 1 < self.joints.len() { i + 1 } else { 0 }
@@ -236,8 +252,8 @@ impl Chain {
                     joint.e += de;
                     joint.p = joint.frame.p + left(joint.frame.t) * joint.e;
                 }
-                Hold::Point => {}
-                Hold::Circle { centre } => *joint = on_circle(stretch, joint, centre, ds),
+                Hold::Point | Hold::Vertex => {}
+                Hold::Circle { .. } => *joint = joint.slid(stretch, joint.s + ds),
             }
         }
         for (i, member) in chain.members.iter_mut().enumerate() {
@@ -260,9 +276,9 @@ pub(super) fn exact_half(a: Point2, b: Point2, centre: Point2, ccw: bool) -> f64
     0.5 * sweep
 }
 
-/// The joint moved along its circle by `ds`.
-fn on_circle(stretch: &Stretch<'_>, joint: &Joint, centre: Point2, ds: f64) -> Joint {
-    let frame = stretch.at(joint.s + ds);
+/// The joint moved along its circle to station `s`.
+fn on_circle(stretch: &Stretch<'_>, joint: &Joint, centre: Point2, s: f64) -> Joint {
+    let frame = stretch.at(s);
     let w = frame.p - centre;
     let r = joint.p - centre;
     let n = left(frame.t);
@@ -270,8 +286,11 @@ fn on_circle(stretch: &Stretch<'_>, joint: &Joint, centre: Point2, ds: f64) -> J
     let (b, q) = (n.dot(&w), w.norm_squared() - r.norm_squared());
     let root = (b * b - q).max(0.0).sqrt();
     let e = if b >= 0.0 { -q / (b + root) } else { -q / (b - root) };
-    Joint { s: joint.s + ds, e, frame, p: frame.p + n * e, ..*joint }
+    Joint { s, e, frame, p: frame.p + n * e, ..*joint }
 }
+
+/// Rows of an arc besides those at its extremes, about.
+const ROWS: usize = 7;
 
 /// Row with no coefficients.
 fn empty(block: usize, value: f64, slope: f64) -> Row {
@@ -285,27 +304,38 @@ pub(super) fn rows(chain: &Chain, stretch: &Stretch<'_>, goal: &Goal, out: &mut 
     }
     for (j, joint) in chain.joints.iter().enumerate() {
         let mut row = empty(j, joint.e - goal.band.middle, 1.0);
-        row.coefficients[1] = if joint.directions().1 == Vec2::zeros() { 0.0 } else { 1.0 };
+        let (along, across) = joint.directions();
+        let n = left(joint.frame.t);
+        row.coefficients[0] = along.dot(&n);
+        row.coefficients[1] = across.dot(&n);
         out.push(row);
         if j < chain.len()
             && let Some(i) = chain.before(j)
         {
-            out.push(kink_row(chain, goal, i, j));
+            out.push(kink_row(chain, goal.band.half / goal.tangent, i, j));
         }
     }
 }
 
 fn deviation_rows(chain: &Chain, stretch: &Stretch<'_>, goal: &Goal, i: usize, out: &mut Vec<Row>) {
-    if matches!(chain.members[i], Member::Exact { .. }) {
+    if chain.is_exact(i) {
         return;
     }
     let drawn = chain.drawn(i);
     let circle = drawn.circle();
     let (a, b) = (&chain.joints[i], &chain.joints[chain.end(i)]);
     let (a_dir, b_dir) = (a.directions(), b.directions());
-    for (_, q) in stretch.between(a.s, chain.station_after(stretch, i)) {
-        let e = circle.deviation(q.p, q.n).clamp(-1e3, 1e3);
-        let (by_a, by_b, by_half) = drawn.gradient(q.p + q.n * e);
+    let values: Vec<(f64, &Sample)> = stretch
+        .between(a.s, chain.station_after(stretch, i))
+        .map(|(_, q)| (circle.deviation(q.p, q.n).clamp(-1e3, 1e3), q))
+        .collect();
+    let stride = values.len() / ROWS + 1;
+    for (j, (e, q)) in values.iter().enumerate() {
+        let extreme = j > 0 && j + 1 < values.len() && (e - values[j - 1].0) * (e - values[j + 1].0) >= 0.0;
+        if !extreme && j % stride != stride / 2 {
+            continue;
+        }
+        let (by_a, by_b, by_half) = drawn.gradient(q.p + q.n * *e);
         let mut row = empty(i, e - goal.band.middle, 1.0);
         row.coefficients[0] = by_a.dot(&a_dir.0);
         row.coefficients[1] = by_a.dot(&a_dir.1);
@@ -336,8 +366,25 @@ fn tangent_row(chain: &Chain, i: usize, at_end: bool) -> [f64; 5] {
     [-turn_by(a_dir.0), -turn_by(a_dir.1), by_half, turn_by(b_dir.0), turn_by(b_dir.1)]
 }
 
-fn kink_row(chain: &Chain, goal: &Goal, i: usize, j: usize) -> Row {
-    let scale = goal.band.half / goal.tangent;
+/// Rows of the tangent errors in radians, stations of free joints held.
+pub(super) fn kink_rows(chain: &Chain) -> Vec<Row> {
+    let free = |j: usize| chain.joints.get(j).is_some_and(|q| q.hold == Hold::Free);
+    let mut out = Vec::with_capacity(chain.len());
+    for j in 0..chain.len() {
+        if let Some(i) = chain.before(j) {
+            let mut row = Row { slope: 0.0, ..kink_row(chain, 1.0, i, j) };
+            for (k, at) in [i, j, chain.end(j)].into_iter().enumerate() {
+                if free(at) {
+                    row.coefficients[k * BLOCK] = 0.0;
+                }
+            }
+            out.push(row);
+        }
+    }
+    out
+}
+
+fn kink_row(chain: &Chain, scale: f64, i: usize, j: usize) -> Row {
     let mut row = empty(i, chain.kink(j) * scale, 1.0);
     for (k, v) in tangent_row(chain, i, true).into_iter().enumerate() {
         row.coefficients[k] -= v * scale;
@@ -360,15 +407,16 @@ pub(super) fn measure(chain: &Chain, stretch: &Stretch<'_>, goal: &Goal) -> f64 
         worst = worst.max(chain.kink(j).abs() * goal.band.half / goal.tangent);
     }
     for i in 0..chain.len() {
-        if !matches!(chain.members[i], Member::Exact { .. }) {
-            worst = worst.max(arc_measure(chain, stretch, goal, i));
-        }
+        worst = worst.max(arc_measure(chain, stretch, goal, i));
     }
     worst
 }
 
 /// Largest distance of arc i from the middle of the band, mm.
 pub(super) fn arc_measure(chain: &Chain, stretch: &Stretch<'_>, goal: &Goal, i: usize) -> f64 {
+    if chain.is_exact(i) {
+        return 0.0;
+    }
     let circle = chain.drawn(i).circle();
     let a = &chain.joints[i];
     let b = &chain.joints[chain.end(i)];

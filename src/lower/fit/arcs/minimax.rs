@@ -12,6 +12,8 @@ pub(super) const BLOCK: usize = 3;
 pub(super) const WIDTH: usize = 9;
 /// Half bandwidth of the normal equations.
 const BAND: usize = WIDTH - 1;
+/// Damping of a least change, relative to the largest coefficient's square.
+const DAMPING: f64 = 1e-9;
 /// Interior-point iterations at most.
 const ITERATIONS: usize = 40;
 
@@ -257,6 +259,29 @@ impl Problem {
             }
         }
         sum
+    }
+
+    /// The x of least norm for which the rows' values become (almost) zero: damped least squares.
+    pub fn least_change(&self) -> Option<Vec<f64>> {
+        let mut matrix = Arrow::new(self);
+        let mut rhs = vec![0.0; self.variables() + 1];
+        let mut largest = 0.0_f64;
+        for row in &self.rows {
+            matrix.add(row, 1.0, 0.0);
+            for (i, &a) in row.coefficients.iter().enumerate() {
+                rhs[(row.block * BLOCK + i) % self.variables()] -= a * row.value;
+                largest = largest.max(a * a);
+            }
+        }
+        for v in 0..self.variables() {
+            matrix.put(v, v, DAMPING * largest + 1e-300);
+        }
+        if !matrix.factor() {
+            return None;
+        }
+        let mut x = matrix.solve(&rhs)?;
+        x.pop();
+        Some(x)
     }
 
     /// Least t within a relative `accuracy`; `None` when the arithmetic breaks down.

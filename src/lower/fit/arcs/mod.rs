@@ -9,6 +9,7 @@
 
 mod certify;
 mod chain;
+mod exact;
 mod minimax;
 mod optimise;
 mod round;
@@ -21,6 +22,7 @@ mod tests;
 use certify::Extremes;
 use chain::{Band, Chain, Goal, Hold, Joint};
 use round::{Limits, Rounded};
+use search::Wish;
 use stretch::Stretch;
 
 use super::{Fit, FitError, Grid, Primitive, Tube};
@@ -31,7 +33,7 @@ use crate::math;
 /// Flatter arcs than this become lines, mm.
 const LARGEST_RADIUS: f64 = 1e5;
 /// Tangent error at a joint before rounding that weighs as much as half the band, radians.
-const INNER_TANGENT: f64 = 0.006 * math::DEG;
+const INNER_TANGENT: f64 = 2e-6;
 /// Shares of the band that are tried before rounding.
 const SHARES: [f64; 4] = [1.0, 0.9, 0.75, 0.5];
 
@@ -43,7 +45,6 @@ const SHARES: [f64; 4] = [1.0, 0.9, 0.75, 0.5];
 /// # Errors
 /// [`FitError::BandTooNarrow`] when no chain on the grid keeps the band, [`FitError::BadCurve`] for cusps.
 pub fn arcs(tube: &Tube<'_>, grid: &Grid, exact_spans: bool, start: Option<f64>) -> Result<Fit, FitError> {
-    let _ = exact_spans;
     let half = 0.5 * (tube.left + tube.right);
     let (u, _) = tube.curve.domain();
     let origin = tube.curve.at(u).p;
@@ -58,7 +59,7 @@ pub fn arcs(tube: &Tube<'_>, grid: &Grid, exact_spans: bool, start: Option<f64>)
     let mut fits = Vec::with_capacity(list.len());
     for (i, stretch) in list.iter().enumerate() {
         let ends = (!stretch.closed).then(|| [vertices[i], vertices[(i + 1) % vertices.len()]]);
-        fits.push(fit_stretch(tube, grid, stretch, ends, start)?);
+        fits.push(fit_stretch(tube, grid, stretch, ends, exact_spans, start)?);
     }
     Ok(joined(fits))
 }
@@ -127,6 +128,7 @@ fn fit_stretch(
     grid: &Grid,
     stretch: &Stretch<'_>,
     ends: Option<[[i64; 2]; 2]>,
+    exact: bool,
     start: Option<f64>,
 ) -> Result<Rounded, FitError> {
     let limits = Limits { left: tube.left, right: tube.right, radius: LARGEST_RADIUS };
@@ -140,7 +142,8 @@ fn fit_stretch(
                 end_joint(stretch, round::point(grid, b), stretch.length()),
             ]
         });
-        let Some((chain, _)) = search::fewest(stretch, &goal, joints) else { continue };
+        let wish = Wish { goal, ends: joints, exact, radius: LARGEST_RADIUS };
+        let Some((chain, _)) = search::fewest(stretch, &wish) else { continue };
         let chain = from_start(chain, stretch, start);
         let rounded = round::round(&chain, stretch, grid, &limits)?;
         if rounded.good(&limits) {
@@ -165,7 +168,7 @@ fn too_narrow(tube: &Tube<'_>, last: Option<&Rounded>, stretch: &Stretch<'_>) ->
 /// A joint fixed at `p`, whose foot is the end `s` of an open stretch.
 fn end_joint(stretch: &Stretch<'_>, p: Point2, s: f64) -> Joint {
     let frame = stretch.end(s > 0.0);
-    Joint { s, e: (p - frame.p).dot(&left(frame.t)), hold: Hold::Point, frame, p }
+    Joint { s, e: (p - frame.p).dot(&left(frame.t)), hold: Hold::Vertex, frame, p }
 }
 
 /// The closed chain counted from the joint nearest to the preferred start parameter.

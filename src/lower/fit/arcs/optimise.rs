@@ -1,7 +1,7 @@
 //! Smallest largest deviation of a chain with a given number of arcs: sequential linear minimax programming with a
 //! trust region.
 
-use super::chain::{Chain, Goal, Member, measure, rows};
+use super::chain::{Chain, Goal, Hold, Member, kink_rows, measure, rows};
 use super::minimax::{BLOCK, Problem, Row, WIDTH};
 use super::stretch::Stretch;
 
@@ -20,11 +20,16 @@ pub(super) struct Stop {
 const LINEAR: f64 = 1e-3;
 /// Largest move of a joint along the curve in one iteration, as a share of the shorter arc beside it.
 const SLIDE: f64 = 0.35;
+/// Newton steps that make a chain tangent-continuous.
+const RESTORATIONS: usize = 3;
+/// Least room to either side of a bounded variable, in units of its scale.
+const INSIDE: f64 = 1e-4;
 /// Trust region below which nothing can be gained.
 const SMALLEST_TRUST: f64 = 1e-3;
 
 /// Improves `chain`; returns it with its largest distance from the middle of the band, mm (tangent errors weighted in).
 pub(super) fn improve(mut chain: Chain, stretch: &Stretch<'_>, goal: &Goal, stop: &Stop) -> (Chain, f64) {
+    restore(&mut chain, stretch, goal);
     let mut worst = measure(&chain, stretch, goal);
     let mut trust = 1.0;
     let mut stalls = 0;
@@ -36,10 +41,11 @@ pub(super) fn improve(mut chain: Chain, stretch: &Stretch<'_>, goal: &Goal, stop
         let mut problem = Problem { blocks: chain.joints.len(), cyclic: chain.closed, rows: Vec::new() };
         rows(&chain, stretch, goal, &mut problem.rows);
         scale_rows(&mut problem.rows, &scales);
-        boxes(&mut problem.rows, scales.len());
+        boxes(&chain, &mut problem.rows, &scales);
         let Some(solution) = problem.solve(LINEAR) else { break };
         let step: Vec<f64> = solution.x.iter().zip(&scales).map(|(x, s)| x * s).collect();
-        let next = chain.moved(stretch, &step);
+        let mut next = chain.moved(stretch, &step);
+        restore(&mut next, stretch, goal);
         let found = measure(&next, stretch, goal);
         let (expected, gained) = (worst - solution.t, worst - found);
         if gained > 0.0 {
@@ -57,6 +63,25 @@ pub(super) fn improve(mut chain: Chain, stretch: &Stretch<'_>, goal: &Goal, stop
         }
     }
     (chain, worst)
+}
+
+/// Makes the joints tangent-continuous by the least change of deviations and half sweeps.
+fn restore(chain: &mut Chain, stretch: &Stretch<'_>, goal: &Goal) {
+    for _ in 0..RESTORATIONS {
+        let rows = kink_rows(chain);
+        if rows.iter().all(|r| r.value.abs() <= 0.2 * goal.tangent) {
+            return;
+        }
+        let mut scales = vec![1.0; chain.joints.len() * BLOCK];
+        for i in 0..chain.len() {
+            scales[i * BLOCK + 2] = 4.0 / chain.drawn(i).length.max(1e-9);
+        }
+        let mut problem = Problem { blocks: chain.joints.len(), cyclic: chain.closed, rows };
+        scale_rows(&mut problem.rows, &scales);
+        let Some(x) = problem.least_change() else { return };
+        let step: Vec<f64> = x.iter().zip(&scales).map(|(x, s)| x * s).collect();
+        *chain = chain.moved(stretch, &step);
+    }
 }
 
 /// Largest move of every variable.
@@ -82,12 +107,20 @@ fn scale_rows(rows: &mut [Row], scales: &[f64]) {
     }
 }
 
-/// The trust region: every scaled variable within one.
-fn boxes(rows: &mut Vec<Row>, variables: usize) {
-    for v in 0..variables {
+/// The trust region: every scaled variable within one, and stations within what their joint allows.
+fn boxes(chain: &Chain, rows: &mut Vec<Row>, scales: &[f64]) {
+    for (v, scale) in scales.iter().enumerate() {
+        let (mut low, mut high) = (-1.0_f64, 1.0_f64);
+        let joint = &chain.joints[v / BLOCK];
+        if let (0, Hold::Circle { from, to, .. }) = (v % BLOCK, joint.hold) {
+            // The interior-point method starts at zero, which must be inside.
+            low = low.max(((from - joint.s) / scale).min(-INSIDE));
+            high = high.min(((to - joint.s) / scale).max(INSIDE));
+        }
         let mut coefficients = [0.0; WIDTH];
         coefficients[v % BLOCK] = 1.0;
-        rows.push(Row { block: v / BLOCK, coefficients, value: 0.0, limit: 1.0, slope: 0.0 });
+        let (value, limit) = (-0.5 * (low + high), 0.5 * (high - low));
+        rows.push(Row { block: v / BLOCK, coefficients, value, limit, slope: 0.0 });
     }
 }
 

@@ -143,8 +143,8 @@ fn node(chain: &Chain, stretch: &Stretch<'_>, grid: &Grid, j: usize) -> Result<N
     let length = |i: Option<usize>| i.map_or(f64::INFINITY, |i| chain.drawn(i).length);
     let room = SLIDE * length(before).min(length(after));
     let steps = match joint.hold {
-        Hold::Free | Hold::Circle { .. } => ((room / grid.step) as i64).min(SLIDE_STEPS),
-        Hold::Station | Hold::Point => 0,
+        Hold::Free | Hold::Circle { .. } | Hold::Point => ((room / grid.step) as i64).min(SLIDE_STEPS),
+        Hold::Station | Hold::Vertex => 0,
     };
     let circles = [before, after].map(|i| i.map(|i| chain.drawn(i).circle()));
     let t = after.map_or_else(

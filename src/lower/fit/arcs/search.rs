@@ -1,6 +1,7 @@
 //! How many arcs: insert where the band is missed, take away where there is slack, keep the fewest.
 
 use super::chain::{Chain, Drawn, Goal, Hold, Joint, Member, arc_measure};
+use super::exact::{self, Keep};
 use super::optimise::{Stop, improve};
 use super::start::{Density, least, spread};
 use super::stretch::{Stretch, turn};
@@ -14,29 +15,82 @@ const POLISH_ITERATIONS: usize = 16;
 /// Arcs whose deviation is at least this share of the worst are active.
 const ACTIVE: f64 = 0.9;
 
+/// What the search is asked for.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Wish {
+    /// Band and tangents.
+    pub goal: Goal,
+    /// Fixed ends of an open stretch.
+    pub ends: Option<[Joint; 2]>,
+    /// Circular spans stay as they are.
+    pub exact: bool,
+    /// Flatter arcs become lines, mm.
+    pub radius: f64,
+}
+
 /// Fewest arcs found for a stretch, polished; with the largest distance from the middle of the band, mm.
-pub(super) fn fewest(stretch: &Stretch<'_>, goal: &Goal, ends: Option<[Joint; 2]>) -> Option<(Chain, f64)> {
-    let n = first_count(stretch, goal);
+pub(super) fn fewest(stretch: &Stretch<'_>, wish: &Wish) -> Option<(Chain, f64)> {
+    let goal = &wish.goal;
     let limit = SHARE * goal.band.half;
+    let n = first_count(stretch, goal);
+    let density = density(stretch, n);
+    let keep = |keep: Keep| {
+        let unit = cube_unit(goal);
+        exact::chain(stretch, &density, unit, &goal.band, keep).map(|c| with_ends(c, wish))
+    };
     let mut best: Option<(Chain, f64)> = None;
-    for phase in [0.5, 0.0] {
-        let density = density(stretch, n);
-        let mut chain = spread(stretch, &density, n, phase, goal.band.middle);
-        if let Some([a, b]) = ends {
-            let last = chain.joints.len() - 1;
-            chain.joints[0] = a;
-            chain.joints[last] = b;
-        }
-        let most = best.as_ref().map_or(4 * n + 40, |(c, _)| c.len());
-        let Some((chain, worst)) = grow(chain, stretch, goal, limit, most) else { continue };
+    let mut try_from = |chain: Chain| {
+        let most = best.as_ref().map_or(4 * chain.len() + 40, |(c, _)| c.len());
+        let Some((chain, worst)) = grow(chain, stretch, goal, limit, most) else { return };
         let (chain, worst) = shrink(chain, worst, stretch, goal, limit);
-        if best.as_ref().is_none_or(|(c, _)| chain.len() < c.len()) {
+        let better = |(c, w): &(Chain, f64)| (chain.len(), worst) < (c.len(), *w);
+        if best.as_ref().is_none_or(better) {
             best = Some((chain, worst));
+        }
+    };
+    if wish.exact && exact::kept(stretch, Keep::Arcs).0 {
+        keep(Keep::Arcs).into_iter().for_each(&mut try_from);
+    } else {
+        if exact::kept(stretch, Keep::ArcsAndLines).0 {
+            keep(Keep::ArcsAndLines).into_iter().for_each(&mut try_from);
+        }
+        for phase in [0.5, 0.0] {
+            try_from(with_ends(spread(stretch, &density, n, phase, goal.band.middle), wish));
         }
     }
     let (chain, _) = best?;
     let stop = Stop { target: 0.0, iterations: POLISH_ITERATIONS, gain: 2e-3 };
-    Some(improve(chain, stretch, goal, &stop))
+    let (chain, worst) = improve(chain, stretch, goal, &stop);
+    Some(straightened(chain, worst, stretch, wish, &stop))
+}
+
+fn with_ends(mut chain: Chain, wish: &Wish) -> Chain {
+    if let Some([a, b]) = wish.ends {
+        let last = chain.joints.len() - 1;
+        chain.joints[0] = a;
+        chain.joints[last] = b;
+    }
+    chain
+}
+
+/// Turns arcs flatter than allowed into lines and improves what is left; the chain as it was when that fails.
+fn straightened(chain: Chain, worst: f64, stretch: &Stretch<'_>, wish: &Wish, stop: &Stop) -> (Chain, f64) {
+    let mut straight = chain.clone();
+    for i in 0..straight.len() {
+        if !straight.is_exact(i) && straight.drawn(i).curvature().abs() * wish.radius < 1.0 {
+            straight.members[i] = Member::Line;
+        }
+    }
+    if straight.members == chain.members {
+        return (chain, worst);
+    }
+    let (straight, found) = improve(straight, stretch, &wish.goal, stop);
+    if found <= wish.goal.band.half { (straight, found) } else { (chain, worst) }
+}
+
+/// Integral of the density over one optimal arc: (72√3 δ)^(1/3).
+fn cube_unit(goal: &Goal) -> f64 {
+    crate::math::cbrt(72.0 * 1.732_050_8 * goal.band.half)
 }
 
 fn density(stretch: &Stretch<'_>, n: usize) -> Density {
@@ -45,7 +99,7 @@ fn density(stretch: &Stretch<'_>, n: usize) -> Density {
 
 /// Asymptotic count: ∫|k'|^(1/3) ds / (72√3 δ)^(1/3).
 fn first_count(stretch: &Stretch<'_>, goal: &Goal) -> usize {
-    let unit = crate::math::cbrt(72.0 * 1.732_050_8 * goal.band.half);
+    let unit = cube_unit(goal);
     let mut n = least(stretch);
     for _ in 0..3 {
         n = ((density(stretch, n).total() / unit).floor() as usize).max(least(stretch));
@@ -70,7 +124,7 @@ fn grow(
         if next.len() >= most {
             return None;
         }
-        chain = insert(next, stretch, goal, worst);
+        chain = insert(next, stretch, goal);
     }
 }
 
@@ -79,7 +133,7 @@ fn shrink(mut chain: Chain, mut worst: f64, stretch: &Stretch<'_>, goal: &Goal, 
     let stop = Stop { target: limit, iterations: SEARCH_ITERATIONS, gain: 5e-3 };
     let floor = least(stretch);
     loop {
-        if chain.len() <= floor.max(3) {
+        if chain.len() <= floor.max(2) {
             return (chain, worst);
         }
         let Some(fewer) = remove(&chain, stretch, goal) else { return (chain, worst) };
@@ -92,12 +146,12 @@ fn shrink(mut chain: Chain, mut worst: f64, stretch: &Stretch<'_>, goal: &Goal, 
 }
 
 /// One more arc in the run of active arcs about the worst one.
-fn insert(chain: Chain, stretch: &Stretch<'_>, goal: &Goal, _worst: f64) -> Chain {
+fn insert(chain: Chain, stretch: &Stretch<'_>, goal: &Goal) -> Chain {
     let n = chain.len();
-    let measures: Vec<f64> = (0..n).map(|i| arc_measure(&chain, stretch, goal, i)).collect();
+    let measures = measures(&chain, stretch, goal);
     let (worst_arc, worst) =
         measures.iter().enumerate().fold((0, 0.0), |(i, m), (j, &v)| if v > m { (j, v) } else { (i, m) });
-    let active = |i: usize| measures[i] >= ACTIVE * worst;
+    let active = |i: usize| measures[i] >= ACTIVE * worst && !chain.is_exact(i);
     let (mut first, mut count) = (worst_arc, 1);
     while count < n && (chain.closed || first + count < n) && active((first + count) % n) {
         count += 1;
@@ -109,13 +163,25 @@ fn insert(chain: Chain, stretch: &Stretch<'_>, goal: &Goal, _worst: f64) -> Chai
     respread(&chain, stretch, first, count, count + 1)
 }
 
+/// How bad every arc is: its distance from the middle of the band and the tangent errors at its ends.
+fn measures(chain: &Chain, stretch: &Stretch<'_>, goal: &Goal) -> Vec<f64> {
+    let weight = goal.band.half / goal.tangent;
+    (0..chain.len())
+        .map(|i| {
+            let kinks = chain.kink(i).abs().max(chain.kink(chain.end(i)).abs());
+            if chain.is_exact(i) { 0.0 } else { arc_measure(chain, stretch, goal, i).max(weight * kinks) }
+        })
+        .collect()
+}
+
 /// One arc fewer in the window with the most slack.
 fn remove(chain: &Chain, stretch: &Stretch<'_>, goal: &Goal) -> Option<Chain> {
     let n = chain.len();
     let width = 4.min(n);
-    let measures: Vec<f64> = (0..n).map(|i| arc_measure(chain, stretch, goal, i)).collect();
+    let measures = measures(chain, stretch, goal);
     let starts = if chain.closed { n } else { n + 1 - width };
     let (first, _) = (0..starts)
+        .filter(|&i| (0..width).all(|j| !chain.is_exact((i + j) % n)))
         .map(|i| {
             (
                 i,
@@ -137,17 +203,8 @@ fn respread(chain: &Chain, stretch: &Stretch<'_>, first: usize, count: usize, ne
     let mut rotated = rotate(chain, stretch, first);
     let first = if chain.closed { 0 } else { first };
     let d = density(stretch, n);
-    let total = d.total();
-    let share = |s: f64| {
-        let laps = if stretch.closed { (s / stretch.length()).floor() } else { 0.0 };
-        let w = s - laps * stretch.length();
-        let j = stretch.interval(stretch.wrap(w));
-        let (a, b) = (&stretch.samples[j], &stretch.samples[j + 1]);
-        let f = (w - a.s) / (b.s - a.s);
-        laps + (d.sums[j] + f * (d.sums[j + 1] - d.sums[j])) / total
-    };
-    let from = share(rotated.joints[first].s);
-    let to = share(rotated.station_after(stretch, first + count - 1));
+    let from = d.share(stretch, rotated.joints[first].s);
+    let to = d.share(stretch, rotated.station_after(stretch, first + count - 1));
     let inside: Vec<Joint> = (1..new)
         .map(|i| {
             let x = from + (to - from) * i as f64 / new as f64;
@@ -184,8 +241,13 @@ pub(super) fn rotate(chain: &Chain, stretch: &Stretch<'_>, first: usize) -> Chai
     out.joints.rotate_left(first);
     out.members.rotate_left(first);
     let n = out.joints.len();
+    let lap = stretch.length();
     for joint in &mut out.joints[n - first..] {
-        joint.s += stretch.length();
+        joint.s += lap;
+        if let Hold::Circle { from, to, .. } = &mut joint.hold {
+            *from += lap;
+            *to += lap;
+        }
     }
     out
 }

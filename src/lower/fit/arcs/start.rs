@@ -5,7 +5,7 @@ use super::optimise::natural_halves;
 use super::stretch::Stretch;
 
 /// Largest turning of one arc in a first guess, radians.
-const MOST_TURN: f64 = 2.0;
+const MOST_TURN: f64 = 3.6;
 /// Share of the mean density that counts everywhere, so that joints exist where the curvature stands still.
 const FLOOR: f64 = 0.02;
 
@@ -53,6 +53,16 @@ impl Density {
     /// Total.
     pub fn total(&self) -> f64 {
         self.sums.last().copied().unwrap_or(0.0)
+    }
+
+    /// Share of the total up to (unwrapped) station `s`.
+    pub fn share(&self, stretch: &Stretch<'_>, s: f64) -> f64 {
+        let laps = if stretch.closed { (s / stretch.length()).floor() } else { 0.0 };
+        let w = s - laps * stretch.length();
+        let j = stretch.interval(stretch.wrap(w));
+        let (a, b) = (&stretch.samples[j], &stretch.samples[j + 1]);
+        let f = ((w - a.s) / (b.s - a.s)).clamp(0.0, 1.0);
+        laps + (self.sums[j] + f * (self.sums[j + 1] - self.sums[j])) / self.total()
     }
 
     /// Station at share `x` of the total; closed stretches wrap.

@@ -29,8 +29,6 @@ pub(super) struct Sample {
     pub k: f64,
     /// Arc length per parameter, mm.
     pub speed: f64,
-    /// Whether this is the first sample of a smooth span.
-    pub first: bool,
 }
 
 /// A smooth span of the curve as part of a stretch.
@@ -178,7 +176,7 @@ fn sample_stretch(
         let sampler =
             Sampler { curve, index, bend: 72.0 * 1.732_050_8 * half / (SAMPLES * SAMPLES * SAMPLES) };
         let a = sampler.sample(u0)?;
-        samples.push(Sample { s, first: true, ..a });
+        samples.push(Sample { s, ..a });
         const FIRST: u32 = 4;
         let mut from = a;
         for i in 1..=FIRST {
@@ -207,7 +205,7 @@ impl Sampler<'_> {
         if bad || f.speed <= 0.0 || !f.speed.is_finite() {
             return Err(FitError::BadCurve { u });
         }
-        Ok(Sample { u, s: 0.0, p: f.p, n: left(f.t), k: f.k, speed: f.speed, first: false })
+        Ok(Sample { u, s: 0.0, p: f.p, n: left(f.t), k: f.k, speed: f.speed })
     }
 
     /// Pushes the samples after `a` up to `b`; returns the arc length at `b`.

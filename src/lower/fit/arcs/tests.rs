@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::geom::curve::{CurveRef, Frenet, PlanarCurve};
+use crate::geom::curve::{CurveRef, Frenet, PlanarCurve, Shape};
 use crate::geom::{Point2, Vec2};
 use crate::lower::fit::{Grid, Tube};
 use crate::math;
@@ -81,6 +81,14 @@ impl Pitch {
 }
 
 impl PlanarCurve for Pitch {
+    fn shape(&self, span: usize) -> Shape {
+        let s = self.lift(0.5 * (self.breaks[span] + self.breaks[span + 1]));
+        if s.1 == 0.0 && s.2 == 0.0 {
+            Shape::Arc { centre: Point2::origin(), radius: self.radius + s.0, ccw: true }
+        } else {
+            Shape::General
+        }
+    }
     fn domain(&self) -> (f64, f64) {
         (0.0, math::TAU)
     }
@@ -112,19 +120,24 @@ pub(super) fn paper() -> CurveRef {
 fn probe() {
     let curve = paper();
     for (left, right, grids) in [(0.01, 0.01, [0.001, 1e-5, 0.00254]), (0.01, 0.0, [0.001, 1e-5, 0.00254])] {
-        for step in grids {
-            let clock = std::time::Instant::now();
+        for (step, exact) in grids.into_iter().flat_map(|g| [(g, false), (g, true)]) {
             let tube = Tube { curve: curve.as_ref(), left, right };
             let grid = Grid { step, centre_step: step, angle_step: 0.001 };
-            let fit = super::arcs(&tube, &grid, false, None);
+            let mut fit = super::arcs(&tube, &grid, exact, None);
+            let mut best = std::time::Duration::MAX;
+            for _ in 0..5 {
+                let clock = std::time::Instant::now();
+                fit = super::arcs(&tube, &grid, exact, None);
+                best = best.min(clock.elapsed());
+            }
             match fit {
                 Ok(fit) => {
                     assert!(fit.deviation.0 <= left && fit.deviation.1 <= right && fit.primitives.len() < 20);
                     println!(
-                        "{left} {right} {step} n {} {:?} {:?}",
+                        "{left} {right} {step} {exact} n {} {:?} {:?}",
                         fit.primitives.len(),
                         fit.deviation,
-                        clock.elapsed()
+                        best
                     );
                 }
                 Err(e) => panic!("{left} {right} {step}: {e}"),
