@@ -27,6 +27,9 @@ mod nurbs;
 mod rules;
 
 #[cfg(test)]
+pub(crate) use nurbs::point as nurbs_point;
+
+#[cfg(test)]
 mod tests;
 
 /// The machine about the control, as far as a program's meaning depends on it.

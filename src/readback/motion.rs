@@ -280,7 +280,8 @@ impl Machine<'_> {
         let (dx, dz, turn) = (target.to[0] - from[0], target.to[2] - from[2], target.to[3] - from[3]);
         let linear = crate::math::hypot(dx, dz);
         // LinuxCNC: F is the speed of the linear axes if one of them moves, else degrees a minute. Fanuc: 1 deg
-        // counts as 1 mm.
+        // counts as one unit of length. `per_minute` has been scaled by the unit.
+        let turn = turn * self.unit();
         let reference = match (self.rules.blends, linear > 0.0) {
             (true, true) => linear,
             (true, false) => turn.abs(),

@@ -312,7 +312,7 @@ fn uniform_knots(n: usize, order: usize) -> Vec<f64> {
 
 /// Point of a rational B-spline at `u`, by de Boor's algorithm on homogeneous coordinates. Parameters outside the
 /// domain give the nearest end.
-pub(super) fn point(order: usize, points: &[Point2], weights: &[f64], knots: &[f64], u: f64) -> Point2 {
+pub(crate) fn point(order: usize, points: &[Point2], weights: &[f64], knots: &[f64], u: f64) -> Point2 {
     let Some(first) = points.first() else { return Point2::origin() };
     if order < 2 || points.len() < order || knots.len() < points.len() + order {
         return *first;

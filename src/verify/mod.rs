@@ -1,4 +1,173 @@
 //! Proof: the read-back trace against the exact geometry.
 //!
-//! Deviation is exact per primitive (bounded and refined, no sampling error above 1e-6 mm). What passes
-//! becomes [`Proven`], the only thing that may be written to a file.
+//! # Contract
+//! [`prove`] executes the emitted text with [`crate::readback`] and compares what the machine does with what was asked:
+//! - every contour piece stays in its band about the exact curve and covers it from end to end, in order, at its height
+//!   ([`follow`], [`measure`]: exact per primitive, bounded and refined, no sampling error above 1e-6 mm);
+//! - no move goes deeper into a finished wall than its tolerance allows; no rapid runs below the part's top but straight
+//!   up, or clear of the blank ([`guard`]);
+//! - every cut has its feed, its spindle and its tool ([`state`]); every block ends where the lowered program says, and
+//!   the points of the CL data are reached in order ([`points`]);
+//! - the control has nothing to complain about, and nothing is left to its settings; travel limits hold.
+//!
+//! What passes becomes [`Proven`], the only thing that may be written to a file. Invariant: nothing here uses the fits,
+//! the writer or the dialect data; the exact curve is known by its Frenet data alone. The control's own smoothing is
+//! taken at what the program allows it (`G64 P Q`) and counts against the band. Grbl and LinuxCNC follow arcs and curves by
+//! chords of their own, with an error set in the machine's settings; that is not part of the program and not counted.
+
+use rayon::prelude::*;
+
+use crate::cl::Cl;
+use crate::diag::Sink;
+use crate::readback::{self, EventKind, MachineSetup, Rotary, Trace, TraceMove};
+use crate::target::TargetProgram;
+
+mod certificate;
+mod clearance;
+mod finding;
+mod follow;
+mod guard;
+mod issue;
+mod measure;
+mod path;
+mod pieces;
+mod plan;
+mod points;
+mod rail;
+mod spline;
+mod state;
+#[cfg(test)]
+mod tests;
+mod tree;
+
+pub use certificate::{
+    Certificate, Deviation, Moves, OperationProof, PieceProof, Place, RAPID_RATE, TIME_MODEL, Time, VERSION,
+};
+
+use finding::{Finding, Reporter};
+use plan::{Context, Lines, Orders};
+
+/// Certified accuracy of every reported deviation, and the slack of every comparison with a tolerance, mm.
+pub const ACCURACY: f64 = 1e-6;
+
+/// A written program: its text, and the lines of every block of the lowered program (first, from 1, and one past the
+/// last; empty when nothing was printed).
+#[derive(Debug, Clone)]
+pub struct Emitted {
+    /// The text, as it goes to the file.
+    pub text: String,
+    /// Lines by block.
+    pub lines: Vec<(u32, u32)>,
+}
+
+/// A program whose text has been proven. There is no other way to make one than [`prove`].
+#[derive(Debug, Clone)]
+pub struct Proven {
+    text: String,
+    certificate: Certificate,
+}
+
+impl Proven {
+    /// The NC text.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+    /// What was proven of it.
+    #[must_use]
+    pub fn certificate(&self) -> &Certificate {
+        &self.certificate
+    }
+    /// Says where the operations stand in the source.
+    pub fn locate(&mut self, place: impl Fn(crate::source::Span) -> Place) {
+        self.certificate.locate(place);
+    }
+}
+
+/// A move of the text with its line and block.
+#[derive(Debug, Clone, Copy)]
+struct Placed<'t> {
+    line: u32,
+    block: Option<usize>,
+    cut: &'t TraceMove,
+}
+
+/// Everything the checks look at.
+struct Case<'a> {
+    cl: &'a Cl,
+    target: &'a TargetProgram,
+    contexts: &'a [Context],
+    orders: &'a Orders,
+    needs: readback::Needs,
+    moves: &'a [Placed<'a>],
+}
+
+impl Case<'_> {
+    fn context(&self, block: Option<usize>) -> Context {
+        block
+            .and_then(|b| self.contexts.get(b).copied())
+            .unwrap_or(Context { operation: None, tool: None })
+    }
+}
+
+/// Proves an emitted program, or says in coded diagnostics why it can't be written.
+pub fn prove(cl: &Cl, target: &TargetProgram, emitted: Emitted, control: &str, sink: &mut Sink) -> Option<Proven> {
+    let setup = setup(target);
+    let (trace, needs) = match (readback::run(emitted.text.as_bytes(), control, &setup), readback::needs(control)) {
+        (Ok(trace), Some(needs)) => (trace, needs),
+        (Err(unknown), _) => {
+            finding::unknown_control(&unknown.to_string(), sink);
+            return None;
+        }
+        (Ok(_), None) => return None,
+    };
+    let lines = Lines::new(&emitted.lines);
+    let moves = placed(&trace, &lines);
+    let contexts = plan::contexts(target);
+    let orders = Orders::new(cl);
+    let case = Case { cl, target, contexts: &contexts, orders: &orders, needs, moves: &moves };
+    let (findings, operations) = check(&case, &trace, &lines);
+    let certificate = issue::certificate(&case, &trace, &emitted, control, operations);
+    let mut reporter = Reporter::new(cl, target, sink);
+    for finding in findings {
+        reporter.report(&finding);
+    }
+    reporter.finish().then_some(Proven { text: emitted.text, certificate })
+}
+
+/// The machine as the lowered program declares it.
+fn setup(target: &TargetProgram) -> MachineSetup {
+    let rotary = target.capabilities.rotary.map(|r| Rotary { letter: r.letter, reversed: r.reversed });
+    MachineSetup { rotary, tools: None }
+}
+
+fn placed<'t>(trace: &'t Trace, lines: &Lines) -> Vec<Placed<'t>> {
+    let only_moves = |e: &'t readback::TraceEvent| match &e.kind {
+        EventKind::Move(cut) => Some(Placed { line: e.line, block: lines.block(e.line), cut }),
+        _ => None,
+    };
+    trace.events.iter().filter_map(only_moves).collect()
+}
+
+/// All checks; findings in the order of the text.
+fn check(case: &Case<'_>, trace: &Trace, lines: &Lines) -> (Vec<Finding>, Vec<pieces::Proof>) {
+    let rails = guard::Rails::new(case);
+    let (mut findings, proofs) = pieces::all(case, &rails);
+    findings.extend(finding::of_control(trace, lines));
+    let guards = guard::Guards::new(case, &rails);
+    let others: Vec<Finding> = case
+        .moves
+        .par_iter()
+        .flat_map_iter(|placed| {
+            let mut found = state::check(case, placed);
+            found.extend(guards.check(placed));
+            found.extend(points::travel(case, placed));
+            found
+        })
+        .collect();
+    findings.extend(others);
+    findings.extend(points::block_ends(case));
+    findings.extend(points::cl_points(case));
+    findings.sort_by_key(Finding::line);
+    (findings, proofs)
+}

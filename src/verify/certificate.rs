@@ -1,0 +1,167 @@
+//! The certificate: what was measured on the emitted text.
+
+use serde::Serialize;
+
+use crate::geom::Point2;
+use crate::ir::{Band, Interpolation};
+use crate::source::Span;
+
+/// Version of the certificate's shape; a field that changes its meaning or goes away raises it.
+pub const VERSION: u32 = 1;
+
+/// What was proven of one NC program.
+#[derive(Debug, Clone, Serialize)]
+pub struct Certificate {
+    /// Shape of this record, [`VERSION`].
+    pub version: u32,
+    /// Post that made the text.
+    pub post: String,
+    /// Control whose interpreter read it back.
+    pub control: String,
+    /// SHA-256 of the text, hexadecimal.
+    pub digest: String,
+    /// Bytes of the text.
+    pub bytes: u64,
+    /// Lines of the text.
+    pub lines: u32,
+    /// Moves by kind.
+    pub moves: Moves,
+    /// Time.
+    pub time: Time,
+    /// No reported deviation falls short of the true one by more than this, mm.
+    pub accuracy: f64,
+    /// Operations in order.
+    pub operations: Vec<OperationProof>,
+}
+
+/// Moves of a program by kind.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+pub struct Moves {
+    /// Rapids.
+    pub rapids: u64,
+    /// Lines at feed.
+    pub lines: u64,
+    /// Arcs and circles.
+    pub arcs: u64,
+    /// Archimedean spirals of a rotary table.
+    pub spirals: u64,
+    /// NURBS curves.
+    pub nurbs: u64,
+}
+
+/// Estimated time.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+pub struct Time {
+    /// Cutting at feed, s.
+    pub cutting: f64,
+    /// Rapids at [`RAPID_RATE`], s.
+    pub rapid: f64,
+    /// Dwells, s.
+    pub dwell: f64,
+    /// What the estimate leaves out.
+    pub model: &'static str,
+}
+
+/// Speed that the time estimate gives to rapids, mm/min.
+pub const RAPID_RATE: f64 = 5000.0;
+
+/// [`Time::model`].
+pub const TIME_MODEL: &str = "every move at its feed, rapids at 5000 mm/min; no acceleration, no tool changes";
+
+/// Where a statement stands, for people.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Place {
+    /// File as the user named it.
+    pub file: String,
+    /// Line, from 1.
+    pub line: usize,
+    /// Column, from 1.
+    pub column: usize,
+}
+
+/// What was proven of one operation.
+#[derive(Debug, Clone, Serialize)]
+pub struct OperationProof {
+    /// Its label.
+    pub name: String,
+    /// `PROFIL`, `ROUGH` …
+    pub kind: &'static str,
+    /// Its statement.
+    #[serde(skip)]
+    pub span: Option<Span>,
+    /// The same for people; set by [`Certificate::locate`].
+    pub source: Option<Place>,
+    /// Tolerance asked for, mm.
+    pub tolerance: Band,
+    /// Largest deviation into the part over all pieces, if any was measured.
+    pub into: Option<Deviation>,
+    /// Largest deviation out of the part.
+    pub out: Option<Deviation>,
+    /// Blocks of all pieces.
+    pub blocks: u32,
+    /// Contours in the order they are cut.
+    pub pieces: Vec<PieceProof>,
+}
+
+/// What was proven of one contour at one height.
+#[derive(Debug, Clone, Serialize)]
+pub struct PieceProof {
+    /// Interpolation used.
+    pub interpolation: Interpolation,
+    /// Tip height, mm.
+    pub z: f64,
+    /// NC blocks that stand for the curve.
+    pub blocks: u32,
+    /// Proven lower bound on that number, where one is known.
+    pub lower_bound: Option<u32>,
+    /// Length of the exact curve, mm.
+    pub length: f64,
+    /// Largest deviation into the part.
+    pub into: Deviation,
+    /// Largest deviation out of the part.
+    pub out: Deviation,
+}
+
+/// A measured extreme.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Deviation {
+    /// mm, in the direction of its name; 0 when the path never goes that way.
+    pub value: f64,
+    /// Line of the text, from 1.
+    pub line: u32,
+    /// Where, mm.
+    pub x: f64,
+    /// Where, mm.
+    pub y: f64,
+    /// Where, mm.
+    pub z: f64,
+}
+
+impl Deviation {
+    pub(super) fn new(value: f64, line: u32, at: Point2, z: f64) -> Self {
+        Deviation { value: value.max(0.0), line, x: at.x, y: at.y, z }
+    }
+
+    /// The larger of two.
+    #[must_use]
+    pub(super) fn or_larger(self, other: Option<Deviation>) -> Deviation {
+        other.filter(|o| o.value >= self.value).unwrap_or(self)
+    }
+}
+
+impl Certificate {
+    /// Fills in [`OperationProof::source`].
+    pub fn locate(&mut self, place: impl Fn(Span) -> Place) {
+        for operation in &mut self.operations {
+            operation.source = operation.span.map(&place);
+        }
+    }
+}
+
+impl Time {
+    /// All of it, s.
+    #[must_use]
+    pub fn total(&self) -> f64 {
+        self.cutting + self.rapid + self.dwell
+    }
+}

@@ -1,0 +1,139 @@
+//! What the program was asked to do, beside what the text does: which lines belong to which block, which operation
+//! and which piece, and what feed, spindle and tool were in force for each contour.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use crate::cl::{Cl, RecordKind};
+use crate::geom::curve::CurveRef;
+use crate::ir::{Feed, Spindle};
+use crate::target::{BlockKind, TargetProgram};
+
+/// State that the CL data puts in force.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Asked {
+    /// Feed along the path, mm/min; 0 when none was given.
+    pub feed: f64,
+    /// Spindle, rev/min, negative counter-clockwise.
+    pub spindle: f64,
+}
+
+/// Where a block stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Context {
+    /// Operation, if one has begun.
+    pub operation: Option<usize>,
+    /// Index into the target program's tools, if one is loaded.
+    pub tool: Option<u32>,
+}
+
+/// Context of every block.
+pub(super) fn contexts(target: &TargetProgram) -> Vec<Context> {
+    let mut now = Context { operation: None, tool: None };
+    let mut begun = 0;
+    target
+        .blocks
+        .iter()
+        .map(|block| {
+            match &block.kind {
+                BlockKind::BeginOperation(_) => {
+                    now.operation = Some(begun);
+                    begun += 1;
+                }
+                BlockKind::ToolChange(tool) => now.tool = Some(*tool),
+                _ => {}
+            }
+            now
+        })
+        .collect()
+}
+
+/// The block of every line: lines are given block by block, in order.
+pub(super) struct Lines {
+    ranges: Vec<(u32, u32, usize)>,
+}
+
+impl Lines {
+    pub(super) fn new(lines: &[(u32, u32)]) -> Self {
+        let mut ranges: Vec<(u32, u32, usize)> =
+            lines.iter().enumerate().filter(|(_, (a, b))| b > a).map(|(i, &(a, b))| (a, b, i)).collect();
+        ranges.sort_unstable();
+        Lines { ranges }
+    }
+
+    /// Index of the block that printed `line`.
+    pub(super) fn block(&self, line: u32) -> Option<usize> {
+        let after = self.ranges.partition_point(|&(from, _, _)| from <= line);
+        let &(_, to, block) = self.ranges.get(after.checked_sub(1)?)?;
+        (line < to).then_some(block)
+    }
+}
+
+/// What was asked for contours, and the feeds of everything else, per operation.
+#[derive(Debug, Default)]
+pub(super) struct Orders {
+    contours: Vec<(Option<usize>, CurveRef, Asked)>,
+    feeds: BTreeMap<Option<usize>, Vec<f64>>,
+}
+
+impl Orders {
+    pub(super) fn new(cl: &Cl) -> Self {
+        let mut orders = Orders::default();
+        let mut asked = Asked::default();
+        let mut operation = None;
+        let mut feed = Feed::PerMinute(0.0);
+        for record in &cl.records {
+            match &record.kind {
+                RecordKind::BeginOperation(index) => operation = Some(*index as usize),
+                RecordKind::Spindle(spindle) => asked.spindle = signed(*spindle),
+                RecordKind::Feed(f) => feed = *f,
+                RecordKind::Contour(contour) => {
+                    orders.contours.push((operation, contour.curve.clone(), asked));
+                    orders.feeds.entry(operation).or_default().extend(contour.plunge_feed);
+                }
+                _ => {}
+            }
+            asked.feed = per_minute(feed, asked.spindle);
+            let feeds = orders.feeds.entry(operation).or_default();
+            if feeds.last() != Some(&asked.feed) && asked.feed > 0.0 {
+                feeds.push(asked.feed);
+            }
+        }
+        orders
+    }
+
+    /// What was asked for the contour along this curve.
+    pub(super) fn contour(&self, operation: usize, curve: &CurveRef) -> Option<Asked> {
+        self.contours
+            .iter()
+            .find(|(op, c, _)| *op == Some(operation) && Arc::ptr_eq(c, curve))
+            .map(|(.., asked)| *asked)
+    }
+
+    /// Feeds that were in force at some time in the operation.
+    pub(super) fn feeds(&self, operation: Option<usize>) -> &[f64] {
+        self.feeds.get(&operation).map_or(&[], Vec::as_slice)
+    }
+}
+
+fn per_minute(feed: Feed, spindle: f64) -> f64 {
+    match feed {
+        Feed::PerMinute(f) => f,
+        Feed::PerRevolution(f) => f * spindle.abs(),
+        // Never in CL data, by its contract.
+        Feed::PerTooth(_) => 0.0,
+    }
+}
+
+fn signed(spindle: Spindle) -> f64 {
+    match spindle {
+        Spindle::Off => 0.0,
+        Spindle::On { rpm, clockwise } => {
+            if clockwise {
+                rpm
+            } else {
+                -rpm
+            }
+        }
+    }
+}

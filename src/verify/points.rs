@@ -1,0 +1,153 @@
+//! Points: travel limits, ends of blocks, and the points of the CL data.
+
+use super::finding::{Finding, Text};
+use super::{ACCURACY, Case, Placed};
+use crate::cl::RecordKind;
+use crate::diag::codes::verification as codes;
+use crate::geom::{Point2, Point3};
+use crate::math::{DEG, TAU};
+use crate::readback::TracePath;
+use crate::target::{BlockKind, Motion, Position};
+
+/// The move against the declared travel of X, Y and Z.
+pub(super) fn travel(case: &Case<'_>, placed: &Placed<'_>) -> Vec<Finding> {
+    let limits = &case.target.capabilities.travel;
+    if limits.iter().all(Option::is_none) {
+        return Vec::new();
+    }
+    let z = placed.cut.z;
+    let (x, y) = extent(&placed.cut.path);
+    let ranges = [("X", x), ("Y", y), ("Z", (z.0.min(z.1), z.0.max(z.1)))];
+    ranges
+        .into_iter()
+        .zip(limits)
+        .zip(placed.cut.known)
+        .filter_map(|(((axis, range), limit), known)| {
+            let (least, most) = (*limit)?;
+            let low = known && range.0 < least - ACCURACY;
+            (low || range.1 > most + ACCURACY).then(|| {
+                let reached = if low { range.0 } else { range.1 };
+                let text = Text::default().words(format!("{axis} goes to ")).length(reached);
+                let text = text.words(", its travel is ").length(least).words(" to ").length(most);
+                Finding::new(&codes::BEYOND_TRAVEL, placed.line, placed.block, text)
+            })
+        })
+        .collect()
+}
+
+type Range = (f64, f64);
+
+/// Range of the machine's X and Y over a path.
+fn extent(path: &TracePath) -> (Range, Range) {
+    let of = |points: &[Point2]| {
+        let fold = |f: fn(&Point2) -> f64| {
+            points.iter().map(f).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)))
+        };
+        (fold(|p| p.x), fold(|p| p.y))
+    };
+    match path {
+        TracePath::Line { from, to } => of(&[*from, *to]),
+        TracePath::Spiral { radius, .. } => ((radius.0.min(radius.1), radius.0.max(radius.1)), (0.0, 0.0)),
+        TracePath::Nurbs { points, .. } => of(points),
+        TracePath::Arc { from, to, centre, sweep } => {
+            let mut points = vec![*from, *to];
+            let start = crate::math::atan2(from.y - centre.y, from.x - centre.x);
+            let quarter = TAU / 4.0;
+            let r = (from - centre).norm().max((to - centre).norm());
+            for i in 0..4u8 {
+                let angle = f64::from(i) * quarter;
+                let ahead = if *sweep > 0.0 { angle - start } else { start - angle };
+                let ahead = ahead - (ahead / TAU).floor() * TAU;
+                if ahead <= sweep.abs() {
+                    let (s, c) = crate::math::sin_cos(angle);
+                    points.push(centre + crate::geom::Vec2::new(c, s) * r);
+                }
+            }
+            of(&points)
+        }
+    }
+}
+
+/// Every motion block's last move ends where the lowered program says.
+pub(super) fn block_ends(case: &Case<'_>) -> Vec<Finding> {
+    let mut findings = Vec::new();
+    for (i, placed) in case.moves.iter().enumerate() {
+        let last_of_block = case.moves.get(i + 1).is_none_or(|next| next.block != placed.block);
+        if !last_of_block {
+            continue;
+        }
+        let text = match placed.block.and_then(|b| case.target.blocks.get(b)).map(|b| &b.kind) {
+            Some(BlockKind::Motion(motion)) => wrong_end(case, motion, placed),
+            Some(BlockKind::Insert(_) | BlockKind::Begin | BlockKind::End | BlockKind::ToolChange(_)) => None,
+            _ => Some(Text::default().words("a motion that the lowered program does not have")),
+        };
+        findings.extend(text.map(|t| Finding::new(&codes::NOT_AS_LOWERED, placed.line, placed.block, t)));
+    }
+    findings
+}
+
+fn wrong_end(case: &Case<'_>, motion: &Motion, placed: &Placed<'_>) -> Option<Text> {
+    let (to, rapid) = match motion {
+        Motion::Rapid { to, .. } => (*to, true),
+        Motion::Line { to, .. } | Motion::Arc { to, .. } => (*to, false),
+        Motion::Nurbs { curve, .. } => {
+            let last = case.target.nurbs.get(*curve as usize).and_then(|n| n.points.last());
+            (last.map(|(p, _)| *p)?, false)
+        }
+    };
+    let wanted = in_part(case, to);
+    let got = placed.cut.end();
+    if rapid != placed.cut.rapid {
+        return Some(Text::default().words(if rapid { "a cut in place of a rapid" } else { "a rapid in place of a cut" }));
+    }
+    let off = (got - wanted).norm();
+    (!(off <= ACCURACY) && placed.cut.known.iter().all(|k| *k)).then(|| {
+        Text::default()
+            .words("the block ends at ")
+            .point(got.x, got.y)
+            .words(", Z ")
+            .length(got.z)
+            .words(" in place of ")
+            .point(wanted.x, wanted.y)
+            .words(", Z ")
+            .length(wanted.z)
+    })
+}
+
+#[allow(clippy::cast_precision_loss)]
+fn in_part(case: &Case<'_>, p: Position) -> Point3 {
+    let capabilities = &case.target.capabilities;
+    let (step, turn) = (capabilities.grid.linear_step(), capabilities.grid.rotary_step());
+    let (x, y, z) = (p.x as f64 * step, p.y as f64 * step, p.z as f64 * step);
+    let Some(rotary) = capabilities.rotary else { return Point3::new(x, y, z) };
+    let angle = p.r as f64 * turn * DEG * if rotary.reversed { -1.0 } else { 1.0 };
+    let (s, c) = crate::math::sin_cos(angle);
+    Point3::new(c * x - s * y, s * x + c * y, z)
+}
+
+/// The points of the CL data (`GOTO`, rapid or at feed) are reached in their order, contours apart.
+pub(super) fn cl_points(case: &Case<'_>) -> Vec<Finding> {
+    let most = 0.5 * case.target.capabilities.grid.linear_step() * 3.0_f64.sqrt() + ACCURACY;
+    let mut at = 0;
+    let mut findings = Vec::new();
+    for record in &case.cl.records {
+        let point = match record.kind {
+            RecordKind::Rapid(p) | RecordKind::Linear(p) => p,
+            _ => continue,
+        };
+        let rest = case.moves.get(at..).unwrap_or_default();
+        let here = at.checked_sub(1).and_then(|i| case.moves.get(i)).is_some_and(|p| (p.cut.end() - point).norm() <= most);
+        if here {
+            continue;
+        }
+        if let Some(i) = rest.iter().position(|p| (p.cut.end() - point).norm() <= most) {
+            at += i + 1;
+            continue;
+        }
+        let block = case.target.blocks.iter().position(|b| b.origin == record.origin);
+        let line = case.moves.iter().find(|p| p.block == block).map_or(0, |p| p.line);
+        let text = Text::default().words("the point ").point(point.x, point.y).words(", Z ").length(point.z);
+        findings.push(Finding::new(&codes::NOT_FOLLOWED, line, block, text.words(" is not reached")));
+    }
+    findings
+}

@@ -1,0 +1,98 @@
+//! Feed, spindle and tool at every cut.
+
+use super::finding::{Finding, Text};
+use super::{Case, Placed};
+use crate::diag::codes::verification as codes;
+
+/// How far a feed along the path may differ from the one commanded, as a share of it. Covers the rounding of F words,
+/// inverse time ones included.
+const FEED_TOLERANCE: f64 = 0.01;
+/// How far a spindle speed may differ, rev/min: rounding of S words.
+const SPEED_TOLERANCE: f64 = 0.51;
+
+/// Checks a move; rapids need nothing.
+pub(super) fn check(case: &Case<'_>, placed: &Placed<'_>) -> Vec<Finding> {
+    if placed.cut.rapid {
+        return Vec::new();
+    }
+    let mut found = Vec::new();
+    let mut say = |code, text: Text| found.push(Finding::new(code, placed.line, placed.block, text));
+    let cut = placed.cut;
+    if !cut.known.iter().all(|&k| k) {
+        say(&codes::NOT_READY, Text::default().words("a cut from a position that is not known"));
+    }
+    if cut.spindle == 0.0 {
+        say(&codes::NOT_READY, Text::default().words("a cut with the spindle standing"));
+    }
+    if case.needs.tool_change && cut.tool == 0 {
+        say(&codes::NOT_READY, Text::default().words("a cut before a tool is changed in"));
+    }
+    if case.needs.length_offset && !cut.length_offset {
+        say(&codes::NOT_READY, Text::default().words("a cut before the tool's length is taken in (G43)"));
+    }
+    if let Some(text) = tool(case, placed) {
+        say(&codes::NOT_READY, text);
+    }
+    if let Some(text) = spindle(case, placed) {
+        say(&codes::NOT_READY, text);
+    }
+    if let Some(text) = feed(case, placed) {
+        say(&codes::WRONG_FEED, text);
+    }
+    found
+}
+
+/// The tool in the spindle is the one the block was lowered for, where it has a number.
+fn tool(case: &Case<'_>, placed: &Placed<'_>) -> Option<Text> {
+    let wanted = case.context(placed.block).tool.and_then(|t| case.target.tools.get(t as usize))?;
+    let number = wanted.number.filter(|_| case.needs.tool_change)?;
+    let got = placed.cut.tool;
+    (got != 0 && got != number).then(|| {
+        Text::default().words(format!("a cut with tool {got} in place of {number} ({})", wanted.name))
+    })
+}
+
+/// What was asked of a contour's spindle.
+fn spindle(case: &Case<'_>, placed: &Placed<'_>) -> Option<Text> {
+    let wanted = asked(case, placed)?.spindle;
+    let got = placed.cut.spindle;
+    (got != 0.0 && (got - wanted).abs() > SPEED_TOLERANCE).then(|| {
+        Text::default().words(format!("a cut at {} in place of {}", turning(got), turning(wanted)))
+    })
+}
+
+fn turning(rpm: f64) -> String {
+    format!("{} rev/min {}", rpm.abs(), if rpm < 0.0 { "counter-clockwise" } else { "clockwise" })
+}
+
+/// Feed and spindle that were asked for the contour this move is part of.
+fn asked(case: &Case<'_>, placed: &Placed<'_>) -> Option<super::plan::Asked> {
+    let id = case.target.blocks.get(placed.block?)?.piece?;
+    let piece = case.target.pieces.get(id.0 as usize)?;
+    case.orders.contour(piece.operation as usize, &piece.curve)
+}
+
+fn feed(case: &Case<'_>, placed: &Placed<'_>) -> Option<Text> {
+    let got = placed.cut.feed.unwrap_or(0.0);
+    if placed.cut.length() == 0.0 {
+        return None;
+    }
+    let text = Text::default();
+    if !(got > 0.0 && got.is_finite()) {
+        return Some(text.words("a cut without a feed"));
+    }
+    let near = |wanted: f64| (got - wanted).abs() <= FEED_TOLERANCE * wanted + 0.5 * feed_step(case);
+    let said = |wanted: f64| text.clone().words("a feed of ").feed(got).words(" in place of ").feed(wanted);
+    if let Some(asked) = asked(case, placed) {
+        return (!near(asked.feed)).then(|| said(asked.feed));
+    }
+    let feeds = case.orders.feeds(case.context(placed.block).operation);
+    let nearest = feeds.iter().copied().min_by(|a, b| (a - got).abs().total_cmp(&(b - got).abs()))?;
+    (!near(nearest)).then(|| said(nearest))
+}
+
+/// One step of the F word, mm/min.
+fn feed_step(case: &Case<'_>) -> f64 {
+    let grid = &case.target.capabilities.grid;
+    grid.unit.in_mm() / crate::target::power_of_ten(grid.feed_decimals) / grid.feed_scale.max(1e-9)
+}
