@@ -66,7 +66,8 @@ pub struct Time {
 pub const RAPID_RATE: f64 = 5000.0;
 
 /// [`Time::model`].
-pub const TIME_MODEL: &str = "every move at its feed, rapids at 5000 mm/min; no acceleration, no tool changes";
+pub const TIME_MODEL: &str =
+    "every move at its feed, rapids at 5000 mm/min; no acceleration, no tool changes";
 
 /// Where a statement stands, for people.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]

@@ -61,7 +61,9 @@ impl Text {
             match part {
                 Part::Words(words) => text.push_str(words),
                 Part::Length(mm) => text.push_str(&length(*mm, unit)),
-                Part::Feed(f) => text.push_str(&format!("{} {}/min", decimals(f / unit.in_mm(), 3), unit.symbol())),
+                Part::Feed(f) => {
+                    text.push_str(&format!("{} {}/min", decimals(f / unit.in_mm(), 3), unit.symbol()))
+                }
             }
         }
         text
@@ -103,7 +105,9 @@ pub(super) fn of_control(trace: &Trace, lines: &Lines) -> Vec<Finding> {
     let assumed = trace.assumed.iter().map(|f| (&codes::LEFT_TO_SETTINGS, f));
     faults
         .chain(assumed)
-        .map(|(code, f)| Finding::new(code, f.line, lines.block(f.line), Text::default().words(f.message.clone())))
+        .map(|(code, f)| {
+            Finding::new(code, f.line, lines.block(f.line), Text::default().words(f.message.clone()))
+        })
         .collect()
 }
 

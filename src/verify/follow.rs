@@ -128,7 +128,8 @@ impl Walker<'_, '_> {
         if step < -self.slack.along {
             self.found.breaks.push(Break::Back(line, -step));
         }
-        let deviation = [self.found.left, self.found.right].iter().flatten().map(|e| e.d.abs()).fold(0.0, f64::max);
+        let deviation =
+            [self.found.left, self.found.right].iter().flatten().map(|e| e.d.abs()).fold(0.0, f64::max);
         let curvature = from.foot.k.abs().max(to.foot.k.abs());
         let most = path / (1.0 - (curvature * deviation).min(0.5)) + 8.0 * deviation + self.slack.along;
         if step > most {

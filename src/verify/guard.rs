@@ -25,8 +25,14 @@ fn address(curve: &CurveRef) -> usize {
 impl<'a> Rails<'a> {
     pub(super) fn new(case: &Case<'a>) -> Self {
         let walls = case.cl.operations.iter().flat_map(|o| o.guard.walls.iter().map(|w| &w.centre));
-        let mut curves: Vec<(usize, &'a dyn PlanarCurve)> =
-            case.target.pieces.iter().map(|p| &p.curve).chain(walls).map(|c| (address(c), c.as_ref())).collect();
+        let mut curves: Vec<(usize, &'a dyn PlanarCurve)> = case
+            .target
+            .pieces
+            .iter()
+            .map(|p| &p.curve)
+            .chain(walls)
+            .map(|c| (address(c), c.as_ref()))
+            .collect();
         curves.sort_by_key(|(address, _)| *address);
         curves.dedup_by_key(|(address, _)| *address);
         Rails { rails: curves.into_par_iter().map(|(address, curve)| (address, Rail::new(curve))).collect() }
@@ -76,7 +82,9 @@ impl<'a, 'r> Guards<'a, 'r> {
             .guard
             .walls
             .iter()
-            .filter_map(|wall| self.rails.of(&wall.centre).map(|rail| Clearance { rail, part: wall.part, floor }))
+            .filter_map(|wall| {
+                self.rails.of(&wall.centre).map(|rail| Clearance { rail, part: wall.part, floor })
+            })
             .filter(|clearance| !clearance.rail.degenerate)
             .flat_map(|clearance| primitives.iter().filter_map(move |p| clearance.gouge(p)))
             .min_by(|a, b| a.clearance.total_cmp(&b.clearance))?;
@@ -103,7 +111,12 @@ impl<'a, 'r> Guards<'a, 'r> {
         }
         let text = Text::default();
         let Some(blank) = guard.blank_radius else {
-            return Some(Self::blocked(placed, text.words("a rapid below the part's top, and no round blank is declared that it could be clear of")));
+            return Some(Self::blocked(
+                placed,
+                text.words(
+                    "a rapid below the part's top, and no round blank is declared that it could be clear of",
+                ),
+            ));
         };
         let clear = blank + self.cutter_radius(placed);
         let nearest = primitives.iter().map(nearest_to_origin).fold(f64::INFINITY, f64::min);

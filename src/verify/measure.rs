@@ -31,7 +31,8 @@ pub(super) struct Extremes {
 }
 
 impl Extremes {
-    pub(super) const NONE: Extremes = Extremes { left: (f64::NEG_INFINITY, 0.0), right: (f64::INFINITY, 0.0) };
+    pub(super) const NONE: Extremes =
+        Extremes { left: (f64::NEG_INFINITY, 0.0), right: (f64::INFINITY, 0.0) };
 
     fn take(&mut self, d: f64, x: f64) {
         if d > self.left.0 {

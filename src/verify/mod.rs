@@ -104,23 +104,28 @@ struct Case<'a> {
 
 impl Case<'_> {
     fn context(&self, block: Option<usize>) -> Context {
-        block
-            .and_then(|b| self.contexts.get(b).copied())
-            .unwrap_or(Context { operation: None, tool: None })
+        block.and_then(|b| self.contexts.get(b).copied()).unwrap_or(Context { operation: None, tool: None })
     }
 }
 
 /// Proves an emitted program, or says in coded diagnostics why it can't be written.
-pub fn prove(cl: &Cl, target: &TargetProgram, emitted: Emitted, control: &str, sink: &mut Sink) -> Option<Proven> {
+pub fn prove(
+    cl: &Cl,
+    target: &TargetProgram,
+    emitted: Emitted,
+    control: &str,
+    sink: &mut Sink,
+) -> Option<Proven> {
     let setup = setup(target);
-    let (trace, needs) = match (readback::run(emitted.text.as_bytes(), control, &setup), readback::needs(control)) {
-        (Ok(trace), Some(needs)) => (trace, needs),
-        (Err(unknown), _) => {
-            finding::unknown_control(&unknown.to_string(), sink);
-            return None;
-        }
-        (Ok(_), None) => return None,
-    };
+    let (trace, needs) =
+        match (readback::run(emitted.text.as_bytes(), control, &setup), readback::needs(control)) {
+            (Ok(trace), Some(needs)) => (trace, needs),
+            (Err(unknown), _) => {
+                finding::unknown_control(&unknown.to_string(), sink);
+                return None;
+            }
+            (Ok(_), None) => return None,
+        };
     let lines = Lines::new(&emitted.lines);
     let moves = placed(&trace, &lines);
     let contexts = plan::contexts(target);

@@ -48,13 +48,20 @@ pub(super) fn all(case: &Case<'_>, rails: &Rails<'_>) -> (Vec<Finding>, Vec<Proo
     (findings, proofs)
 }
 
-fn one(case: &Case<'_>, rails: &Rails<'_>, piece: &Piece, run: &[Placed<'_>]) -> (Vec<Finding>, Option<Proof>) {
+fn one(
+    case: &Case<'_>,
+    rails: &Rails<'_>,
+    piece: &Piece,
+    run: &[Placed<'_>],
+) -> (Vec<Finding>, Option<Proof>) {
     let Some(first) = run.first() else {
-        let text = Text::default().words(format!("nothing is cut along the contour of {}", name(case, piece)));
+        let text =
+            Text::default().words(format!("nothing is cut along the contour of {}", name(case, piece)));
         return (vec![Finding::new(&codes::NOT_FOLLOWED, 0, block_of(case, piece), text)], None);
     };
     let Some(rail) = rails.of(&piece.curve).filter(|r| !r.degenerate) else {
-        let text = Text::default().words("the exact curve runs backwards or stands still: nothing can be measured against it");
+        let text = Text::default()
+            .words("the exact curve runs backwards or stands still: nothing can be measured against it");
         return (vec![Finding::new(&codes::NOT_FOLLOWED, first.line, first.block, text)], None);
     };
     let moves: Run<'_> = run.iter().map(|p| (p.line, p.cut)).collect();
@@ -73,7 +80,10 @@ fn one(case: &Case<'_>, rails: &Rails<'_>, piece: &Piece, run: &[Placed<'_>]) ->
 }
 
 fn name(case: &Case<'_>, piece: &Piece) -> String {
-    case.cl.operations.get(piece.operation as usize).map_or_else(|| "an operation".to_owned(), |o| o.name.clone())
+    case.cl
+        .operations
+        .get(piece.operation as usize)
+        .map_or_else(|| "an operation".to_owned(), |o| o.name.clone())
 }
 
 /// First block of a piece.
@@ -118,16 +128,24 @@ fn broken(found: Break, case: &Case<'_>, piece: &Piece, run: &[Placed<'_>]) -> F
         Break::End(line, short) if short > 0.0 => {
             (line, text.words("the path stops ").length(short).words(" short of the contour's end"))
         }
-        Break::End(line, short) => (line, text.words("the path runs ").length(-short).words(" past the contour's end")),
+        Break::End(line, short) => {
+            (line, text.words("the path runs ").length(-short).words(" past the contour's end"))
+        }
         Break::Back(line, by) => (line, text.words("the path runs back along the contour by ").length(by)),
         Break::Skip(line, step, path) => (
             line,
-            text.words("a path of ").length(path).words(" leaves out part of the contour, which is ").length(step).words(" long there"),
+            text.words("a path of ")
+                .length(path)
+                .words(" leaves out part of the contour, which is ")
+                .length(step)
+                .words(" long there"),
         ),
         Break::Jump(line, gap) => {
             (line, text.words("the move starts ").length(gap).words(" from where the contour was left"))
         }
-        Break::Nothing => (0, text.words(format!("nothing is cut along the contour of {}", name(case, piece)))),
+        Break::Nothing => {
+            (0, text.words(format!("nothing is cut along the contour of {}", name(case, piece))))
+        }
     };
     let block = run.iter().find(|p| p.line == line).or(run.first()).and_then(|p| p.block);
     Finding::new(&codes::NOT_FOLLOWED, line, block, text)
@@ -168,8 +186,10 @@ fn band_findings(
     proof: &PieceProof,
     allowed: f64,
 ) -> Vec<Finding> {
-    let sides =
-        [(proof.into, piece.band.into, "into the part", "INTOL"), (proof.out, piece.band.out, "out of the part", "OUTTOL")];
+    let sides = [
+        (proof.into, piece.band.into, "into the part", "INTOL"),
+        (proof.out, piece.band.out, "out of the part", "OUTTOL"),
+    ];
     sides
         .into_iter()
         .filter(|(found, band, ..)| !(found.value + allowed <= band + ACCURACY))

@@ -98,7 +98,11 @@ fn wrong_end(case: &Case<'_>, motion: &Motion, placed: &Placed<'_>) -> Option<Te
     let wanted = in_part(case, to);
     let got = placed.cut.end();
     if rapid != placed.cut.rapid {
-        return Some(Text::default().words(if rapid { "a cut in place of a rapid" } else { "a rapid in place of a cut" }));
+        return Some(Text::default().words(if rapid {
+            "a cut in place of a rapid"
+        } else {
+            "a rapid in place of a cut"
+        }));
     }
     let off = (got - wanted).norm();
     (!(off <= ACCURACY) && placed.cut.known.iter().all(|k| *k)).then(|| {
@@ -136,7 +140,10 @@ pub(super) fn cl_points(case: &Case<'_>) -> Vec<Finding> {
             _ => continue,
         };
         let rest = case.moves.get(at..).unwrap_or_default();
-        let here = at.checked_sub(1).and_then(|i| case.moves.get(i)).is_some_and(|p| (p.cut.end() - point).norm() <= most);
+        let here = at
+            .checked_sub(1)
+            .and_then(|i| case.moves.get(i))
+            .is_some_and(|p| (p.cut.end() - point).norm() <= most);
         if here {
             continue;
         }

@@ -207,7 +207,11 @@ impl<'a> Rail<'a> {
             if residue.abs() <= FOOT_ACCURACY {
                 break;
             }
-            if residue > 0.0 { lo = u } else { hi = u }
+            if residue > 0.0 {
+                lo = u
+            } else {
+                hi = u
+            }
             let d = (q - f.p).dot(&f.n());
             let step = residue / (f.speed * (1.0 - f.k * d));
             let next = u + step;
@@ -282,7 +286,8 @@ impl<'a> Rail<'a> {
             (Some(x), Some(y)) if x.span == a.span && y.span == a.span => (x.f.k - y.f.k).abs(),
             _ => 0.0,
         };
-        let margin = 0.5 * step(cell, cell + 1).max(step(cell.wrapping_sub(1), cell)).max(step(cell + 1, cell + 2));
+        let margin =
+            0.5 * step(cell, cell + 1).max(step(cell.wrapping_sub(1), cell)).max(step(cell + 1, cell + 2));
         range.0 = range.0.min(a.f.k.min(b.f.k) - margin);
         range.1 = range.1.max(a.f.k.max(b.f.k) + margin);
         false
@@ -290,7 +295,9 @@ impl<'a> Rail<'a> {
 }
 
 fn corners(nodes: &[Node], closed: bool) -> Vec<usize> {
-    let jumps = |a: &Node, b: &Node| a.span != b.span && cross(a.f.t, b.f.t).abs() > CORNER || a.f.t.dot(&b.f.t) < 0.0;
+    let jumps = |a: &Node, b: &Node| {
+        a.span != b.span && cross(a.f.t, b.f.t).abs() > CORNER || a.f.t.dot(&b.f.t) < 0.0
+    };
     let mut found: Vec<usize> = nodes
         .windows(2)
         .enumerate()

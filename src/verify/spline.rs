@@ -130,8 +130,13 @@ mod tests {
     #[test]
     fn a_rational_quadratic_is_a_circle() {
         let half = 0.5f64.sqrt();
-        let points =
-            [Point2::new(2.0, 0.0), Point2::new(2.0, 2.0), Point2::new(0.0, 2.0), Point2::new(-2.0, 2.0), Point2::new(-2.0, 0.0)];
+        let points = [
+            Point2::new(2.0, 0.0),
+            Point2::new(2.0, 2.0),
+            Point2::new(0.0, 2.0),
+            Point2::new(-2.0, 2.0),
+            Point2::new(-2.0, 0.0),
+        ];
         let knots = [0.0, 0.0, 0.0, 1.0, 1.0, 2.0, 2.0, 2.0];
         let parts = segments(3, &points, &[1.0, half, 1.0, half, 1.0], &knots);
         assert_eq!(parts.len(), 2);

@@ -56,9 +56,8 @@ fn tool(case: &Case<'_>, placed: &Placed<'_>) -> Option<Text> {
 fn spindle(case: &Case<'_>, placed: &Placed<'_>) -> Option<Text> {
     let wanted = asked(case, placed)?.spindle;
     let got = placed.cut.spindle;
-    (got != 0.0 && (got - wanted).abs() > SPEED_TOLERANCE).then(|| {
-        Text::default().words(format!("a cut at {} in place of {}", turning(got), turning(wanted)))
-    })
+    (got != 0.0 && (got - wanted).abs() > SPEED_TOLERANCE)
+        .then(|| Text::default().words(format!("a cut at {} in place of {}", turning(got), turning(wanted))))
 }
 
 fn turning(rpm: f64) -> String {

@@ -81,8 +81,12 @@ fn a_circle_about_another_centre_deviates_by_the_shift() {
 
 #[test]
 fn the_spiral_of_an_arc_with_two_radii_is_measured_as_drawn() {
-    let path =
-        TracePath::Arc { from: polar(20.0, 0.0), to: polar(20.004, 1.0), centre: Point2::origin(), sweep: 1.0 };
+    let path = TracePath::Arc {
+        from: polar(20.0, 0.0),
+        to: polar(20.004, 1.0),
+        centre: Point2::origin(),
+        sweep: 1.0,
+    };
     let curve: CurveRef = Arc::new(CircularArc::new(Point2::origin(), 20.0, 0.0, 1.0).expect("an arc"));
     let found = followed(&curve, vec![path]);
     assert!((right(&found) + 0.004).abs() < 1e-9 && left(&found).abs() < 1e-12, "{found:?}");
@@ -101,13 +105,18 @@ fn a_chord_of_a_spiral_table_move_bulges_by_the_known_amount() {
 
 #[test]
 fn lines_against_a_line_with_a_corner_in_the_path() {
-    let curve: CurveRef = Arc::new(Segment::new(Point2::new(0.0, 0.0), Point2::new(10.0, 0.0)).expect("a segment"));
+    let curve: CurveRef =
+        Arc::new(Segment::new(Point2::new(0.0, 0.0), Point2::new(10.0, 0.0)).expect("a segment"));
     let paths = vec![
         TracePath::Line { from: Point2::new(0.0, 0.0), to: Point2::new(5.0, 0.02) },
         TracePath::Line { from: Point2::new(5.0, 0.02), to: Point2::new(10.0, -0.01) },
     ];
     let found = followed(&curve, paths);
-    assert!((left(&found) - 0.02).abs() < 1e-12 && (right(&found) + 0.01).abs() < 1e-12 && found.breaks.is_empty());
+    assert!(
+        (left(&found) - 0.02).abs() < 1e-12
+            && (right(&found) + 0.01).abs() < 1e-12
+            && found.breaks.is_empty()
+    );
     assert_eq!(found.left.expect("there").line, 1);
 }
 
@@ -120,7 +129,9 @@ fn what_leaves_out_turns_back_or_jumps_is_seen() {
     assert!(matches!(followed(&circle(r), short).breaks[..], [Break::End(359, s)] if s > 0.3));
     let mut hole = whole.clone();
     hole.remove(100);
-    assert!(matches!(followed(&circle(r), hole).breaks[..], [Break::Jump(101, g)] if (g - 0.349).abs() < 0.01));
+    assert!(
+        matches!(followed(&circle(r), hole).breaks[..], [Break::Jump(101, g)] if (g - 0.349).abs() < 0.01)
+    );
     let mut twice = whole.clone();
     let again = TracePath::Line { from: whole[50].end(), to: whole[50].start() };
     twice.insert(51, again);
@@ -136,11 +147,22 @@ fn what_leaves_out_turns_back_or_jumps_is_seen() {
 fn a_path_across_to_a_far_branch_is_not_taken_for_the_curve() {
     // A hairpin: two branches 1 mm apart. The short cut ends exactly on the curve.
     let p = |x: f64, y: f64| Point2::new(x, y);
-    let points =
-        [p(0., 0.), p(10., 0.), p(20., 0.), p(30., 0.), p(40.4, 0.), p(40.4, 1.), p(30., 1.), p(20., 1.), p(10., 1.), p(0., 1.)];
+    let points = [
+        p(0., 0.),
+        p(10., 0.),
+        p(20., 0.),
+        p(30., 0.),
+        p(40.4, 0.),
+        p(40.4, 1.),
+        p(30., 1.),
+        p(20., 1.),
+        p(10., 1.),
+        p(0., 1.),
+    ];
     let curve: CurveRef = Arc::new(bezier_chain(&points).expect("a chain"));
     let exact = |from: Point2, to: Point2| TracePath::Line { from, to };
-    let paths = vec![exact(p(0., 0.), p(15., 0.)), exact(p(15., 0.), p(15., 1.)), exact(p(15., 1.), p(0., 1.))];
+    let paths =
+        vec![exact(p(0., 0.), p(15., 0.)), exact(p(15., 0.), p(15., 1.)), exact(p(15., 1.), p(0., 1.))];
     let found = followed(&curve, paths);
     let gross = left(&found).max(-right(&found)) > 0.3;
     assert!(gross && !found.breaks.is_empty(), "{found:?}");
@@ -174,7 +196,8 @@ fn a_corner_of_the_curve_is_measured_by_distance() {
 
 #[test]
 fn a_tighter_polygon_gives_a_smaller_deviation() {
-    let deviations: Vec<f64> = [30, 60, 120, 240].map(|n| left(&followed(&circle(30.0), polygon(n, 30.0)))).to_vec();
+    let deviations: Vec<f64> =
+        [30, 60, 120, 240].map(|n| left(&followed(&circle(30.0), polygon(n, 30.0)))).to_vec();
     assert!(deviations.windows(2).all(|w| (w[0] / w[1] - 4.0).abs() < 0.05), "{deviations:?}");
 }
 
@@ -183,14 +206,23 @@ fn gouges_are_found_and_touching_is_not_one() {
     let curve = circle(20.0);
     let rail = Rail::new(curve.as_ref());
     let clearance = Clearance { rail: &rail, part: Side::Left, floor: -0.01 };
-    let line = |x: f64| Primitive::Line { from: Point2::new(x, -30.0), step: crate::geom::Vec2::new(0.0, 60.0) };
+    let line =
+        |x: f64| Primitive::Line { from: Point2::new(x, -30.0), step: crate::geom::Vec2::new(0.0, 60.0) };
     assert_eq!(clearance.gouge(&line(20.0)), None);
     assert_eq!(clearance.gouge(&line(19.990_000_1)), None);
     let gouge = clearance.gouge(&line(19.98)).expect("a gouge");
     assert!((gouge.clearance + 0.02).abs() < 1e-6 && gouge.at.y.abs() < 0.1, "{gouge:?}");
-    let lead = Primitive::Polar { centre: Point2::new(26.0, 0.0), radius: (6.0, 0.0), angle: (-PI / 2.0, -PI / 2.0) };
+    let lead = Primitive::Polar {
+        centre: Point2::new(26.0, 0.0),
+        radius: (6.0, 0.0),
+        angle: (-PI / 2.0, -PI / 2.0),
+    };
     assert_eq!(clearance.gouge(&lead), None);
-    let deep = Primitive::Polar { centre: Point2::new(26.0, 0.0), radius: (6.1, 0.0), angle: (-PI / 2.0, -PI / 2.0) };
+    let deep = Primitive::Polar {
+        centre: Point2::new(26.0, 0.0),
+        radius: (6.1, 0.0),
+        angle: (-PI / 2.0, -PI / 2.0),
+    };
     assert!(clearance.gouge(&deep).is_some_and(|g| (g.clearance + 0.1).abs() < 1e-4));
     let outer = Clearance { rail: &rail, part: Side::Right, floor: -0.01 };
     assert!(outer.gouge(&line(0.0)).is_some());
