@@ -4,6 +4,7 @@
 //! Nothing here knows operations, controllers or text.
 
 pub mod cam;
+pub mod crossing;
 pub mod curve;
 mod extremum;
 pub mod follower;

@@ -51,7 +51,8 @@ pub enum SegmentKind {
 /// How a rise or return goes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SegmentLaw {
-    /// A classic law; a return is the rise run backwards in time.
+    /// A classic law. A return is the rise turned downwards; of a law made for one dwell, the rise run
+    /// backwards in time, so that its resting end stays at the dwell.
     Law(Law),
     /// The polynomial through the segment's end lifts with these conditions.
     Poly {
@@ -458,9 +459,12 @@ fn segment_spans(segment: &Segment, start: f64, level: f64) -> Vec<Span> {
         (SegmentKind::Rise, SegmentLaw::Law(law)) => {
             law.pieces().iter().map(|p| span(*p, level, segment.lift, false)).collect()
         }
-        (SegmentKind::Return, SegmentLaw::Law(law)) => {
+        (SegmentKind::Return, SegmentLaw::Law(law)) if law.dwells_at_one_end() => {
             let end = level - segment.lift;
             law.pieces().iter().rev().map(|p| span(*p, end, segment.lift, true)).collect()
+        }
+        (SegmentKind::Return, SegmentLaw::Law(law)) => {
+            law.pieces().iter().map(|p| span(*p, level, -segment.lift, false)).collect()
         }
         (_, SegmentLaw::Poly { .. }) => poly::coefficients(segment)
             .map(|c| span(whole(Form::Polynomial(c)), level, 1.0, false))

@@ -21,6 +21,7 @@ const KRONROD: [f64; 8] = [
     0.204_432_940_075_298_9,
     0.209_482_141_084_727_83,
 ];
+#[allow(clippy::excessive_precision, reason = "digits as tabulated")]
 /// Weights of the Gauss rule, the last for the node 0.
 const GAUSS: [f64; 4] =
     [0.129_484_966_168_869_7, 0.279_705_391_489_276_7, 0.381_830_050_505_118_93, 0.417_959_183_673_469_4];

@@ -291,14 +291,7 @@ pub enum Entry {
     Plunge,
 }
 
-/// Which flank of a cam.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize)]
-pub enum Flank {
-    /// The profile that the roller or face runs on from outside; the inner flank of a groove.
-    Inner,
-    /// The outer flank of a groove.
-    Outer,
-}
+pub use crate::geom::cam::Flank;
 
 /// What a profile operation follows.
 #[derive(Debug, Clone, PartialEq)]

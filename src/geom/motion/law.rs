@@ -185,6 +185,12 @@ impl Law {
         let all = PIECES.get_or_init(|| TABLE.iter().map(|row| row.curve.pieces()).collect());
         &all[usize::from(self.0) % COUNT]
     }
+    /// Whether it starts or ends, but not both, without acceleration: a law for a dwell on one side.
+    #[must_use]
+    pub fn dwells_at_one_end(self) -> bool {
+        const AT_REST: f64 = 1e-9;
+        (self.at(0.0).a.abs() < AT_REST) != (self.at(1.0).a.abs() < AT_REST)
+    }
     /// Normalised lift and derivatives at x in 0…1; outside, those of the nearer end.
     #[must_use]
     pub fn at(self, x: f64) -> Lift {
