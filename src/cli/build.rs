@@ -50,7 +50,7 @@ pub fn build(args: &BuildArgs, messages: Messages) -> Result<Status, Diagnostic>
     }
     let mut products: Vec<Product> = planned.iter().filter_map(|p| p.make(&compiled)).collect();
     if let Some(path) = &args.report {
-        products.push(report::product(path, &compiled, &planned)?);
+        products.push(report::product(path, &compiled, &planned));
     }
     if let Some(folder) = &args.out_dir {
         output::make_folder(folder)?;
@@ -193,10 +193,9 @@ impl Planned {
 fn text_of(stage: Stage, build: &Build, output: Option<&Output>) -> Option<String> {
     match stage {
         Stage::Ast => build.ast.as_ref().map(|ast| syntax::print::print(ast, &build.sources)),
-        Stage::Ir => build.ir_text(),
-        Stage::Cl => build.cl_text(),
-        Stage::Target => output?.target_text(),
-        Stage::Nc => output?.text().map(str::to_owned),
+        Stage::Ir | Stage::Cl => None,
+        Stage::Target => output?.target.as_ref().map(crate::target::print::print),
+        Stage::Nc => output?.proven.as_ref().map(|p| p.text().to_owned()),
     }
 }
 

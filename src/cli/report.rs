@@ -3,12 +3,12 @@
 use std::path::Path;
 
 use serde::Serialize;
-use sha2::{Digest, Sha256};
 
+use super::args::Stage;
 use super::build::{Compiled, Planned};
 use super::output::Product;
-use crate::diag::Diagnostic;
-use crate::driver::Output;
+use crate::units::LengthUnit;
+use crate::verify::{Certificate, Deviation, OperationProof};
 
 /// Version of the report's form: minor steps only add members.
 const VERSION: &str = "1.0";
@@ -32,40 +32,31 @@ struct Program<'a> {
 struct NcFile<'a> {
     post: &'a str,
     file: Option<String>,
-    bytes: usize,
-    sha256: String,
-    certificate: serde_json::Value,
+    certificate: &'a Certificate,
     #[serde(skip)]
-    output: &'a Output,
+    units: LengthUnit,
 }
 
 fn nc_files<'a>(source: usize, one: &'a Compiled, planned: &[Planned]) -> Vec<NcFile<'a>> {
     let file = |index: usize| {
-        let found = planned
-            .iter()
-            .find(|p| p.source == source && p.output == Some(index) && p.stage == super::args::Stage::Nc);
+        let found =
+            planned.iter().find(|p| p.source == source && p.output == Some(index) && p.stage == Stage::Nc);
         found.map(|p| p.path.to_string_lossy().into_owned())
     };
     let outputs = one.build.outputs.iter().enumerate();
-    let proven = outputs.filter_map(|(index, output)| Some((index, output, output.text()?)));
+    let proven = outputs.filter_map(|(index, output)| Some((index, output, output.proven.as_ref()?)));
     proven
-        .map(|(index, output, text)| NcFile {
+        .map(|(index, output, proven)| NcFile {
             post: &output.post,
             file: file(index),
-            bytes: text.len(),
-            sha256: digest(text.as_bytes()),
-            certificate: output.certificate_json(),
-            output,
+            certificate: proven.certificate(),
+            units: output.units,
         })
         .collect()
 }
 
-fn digest(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().map(|b| format!("{b:02x}")).collect()
-}
-
 /// The report of a run.
-pub fn product(path: &Path, compiled: &[Compiled], planned: &[Planned]) -> Result<Product, Diagnostic> {
+pub fn product(path: &Path, compiled: &[Compiled], planned: &[Planned]) -> Product {
     let programs = compiled.iter().enumerate().map(|(i, one)| Program {
         source: one.path.to_string_lossy().into_owned(),
         inputs: &one.build.inputs,
@@ -79,17 +70,55 @@ pub fn product(path: &Path, compiled: &[Compiled], planned: &[Planned]) -> Resul
     };
     let mut text = serde_json::to_string_pretty(&report).unwrap_or_default();
     text.push('\n');
-    Ok(Product { path: path.to_path_buf(), bytes: text.into_bytes() })
+    Product { path: path.to_path_buf(), bytes: text.into_bytes() }
 }
 
 /// A few lines for people: what was written and how good it is.
 pub fn summary(compiled: &[Compiled], planned: &[Planned]) -> String {
-    let mut text = String::new();
-    for (i, one) in compiled.iter().enumerate() {
-        for file in nc_files(i, one, planned) {
-            let name = file.file.as_deref().filter(|n| *n != "-").unwrap_or("standard output");
-            text.push_str(&format!("{name} ({}): {}\n", file.post, file.output.summary()));
-        }
-    }
-    text
+    let files = compiled.iter().enumerate().flat_map(|(i, one)| nc_files(i, one, planned));
+    files.map(|file| line(&file)).collect()
+}
+
+fn line(file: &NcFile<'_>) -> String {
+    let name = file.file.as_deref().filter(|n| *n != "-").unwrap_or("standard output");
+    let certificate = file.certificate;
+    let moves = certificate.moves;
+    let count = moves.rapids + moves.lines + moves.arcs + moves.spirals + moves.nurbs;
+    let parts = [
+        Some(format!("{count} moves")),
+        deviation(certificate, file.units),
+        bound(certificate),
+        Some(duration(certificate.time.total())),
+    ];
+    let parts: Vec<String> = parts.into_iter().flatten().collect();
+    format!("{name}: {}\n", parts.join(", "))
+}
+
+/// The largest deviations of all operations, in the program's unit.
+fn deviation(certificate: &Certificate, units: LengthUnit) -> Option<String> {
+    let largest = |of: fn(&OperationProof) -> Option<Deviation>| {
+        certificate.operations.iter().filter_map(of).map(|d| d.value).max_by(f64::total_cmp)
+    };
+    let into = largest(|o| o.into)?;
+    let out = largest(|o| o.out)?;
+    let decimals = match units {
+        LengthUnit::Millimetre => 4,
+        LengthUnit::Inch => 6,
+    };
+    let shown = |v: f64| format!("{:.decimals$}", v / units.in_mm());
+    Some(format!("at most {} into and {} {} off the part", shown(into), shown(out), units.symbol()))
+}
+
+/// Blocks of the contours beside the proven lower bounds, where all are known.
+fn bound(certificate: &Certificate) -> Option<String> {
+    let pieces = || certificate.operations.iter().flat_map(|o| &o.pieces).filter(|p| p.lower_bound.is_some());
+    let blocks: u32 = pieces().map(|p| p.blocks).sum();
+    let least: u32 = pieces().filter_map(|p| p.lower_bound).sum();
+    (blocks > 0).then(|| format!("{blocks} contour blocks (no fewer than {least} can do it)"))
+}
+
+fn duration(seconds: f64) -> String {
+    let whole = seconds.round().max(0.0);
+    let (minutes, rest) = ((whole / 60.0).floor(), whole % 60.0);
+    if minutes > 0.0 { format!("{minutes} min {rest} s") } else { format!("{seconds:.1} s") }
 }

@@ -57,7 +57,8 @@ pub struct Split {
 
 /// Cuts `text` into logical statements.
 pub fn split(file: FileId, text: &str, sink: &mut Sink) -> Split {
-    let mut splitter = Splitter { file, text, bytes: text.as_bytes(), at: 0, out: Split::default(), sink };
+    let mut splitter =
+        Splitter { file, text, bytes: text.as_bytes(), at: 0, line: (1, 0), out: Split::default(), sink };
     if text.starts_with('\u{feff}') {
         splitter.at = '\u{feff}'.len_utf8();
     }
@@ -76,6 +77,8 @@ struct Splitter<'a> {
     text: &'a str,
     bytes: &'a [u8],
     at: usize,
+    /// Start and end of the stretch that [`Splitter::line_end`] searched last; empty at first.
+    line: (usize, usize),
     out: Split,
     sink: &'a mut Sink,
 }
@@ -130,9 +133,14 @@ impl Splitter<'_> {
     }
 
     /// Byte of the end of the line that holds `from` (its line feed, or the end of the file).
-    fn line_end(&self, from: usize) -> usize {
-        let rest = self.bytes.get(from..).unwrap_or(&[]);
-        rest.iter().position(|&b| b == b'\n').map_or(self.bytes.len(), |i| from + i)
+    fn line_end(&mut self, from: usize) -> usize {
+        // Remembered, or a long line full of strings would be searched to its end again and again.
+        if !(self.line.0..=self.line.1).contains(&from) {
+            let rest = self.bytes.get(from..).unwrap_or(&[]);
+            let end = rest.iter().position(|&b| b == b'\n').map_or(self.bytes.len(), |i| from + i);
+            self.line = (from, end);
+        }
+        self.line.1
     }
 
     /// Takes a `$$` comment up to the end of the line; its control characters are mistakes too.

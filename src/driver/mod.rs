@@ -12,6 +12,10 @@ use crate::ir;
 use crate::source::{FileError, FileId, FileProvider, SourceMap};
 use crate::syntax::{self, ast};
 use crate::target::TargetProgram;
+use crate::units::LengthUnit;
+use crate::verify::Proven;
+
+mod targets;
 
 /// What to build.
 #[derive(Debug, Clone, Default)]
@@ -52,44 +56,15 @@ pub struct Output {
     pub post: String,
     /// The extension of its programs, without the point.
     pub extension: String,
+    /// The program's unit of length.
+    pub units: LengthUnit,
     /// The lowered program.
     pub target: Option<TargetProgram>,
-}
-
-impl Output {
-    /// The NC text, when it has been proven.
-    #[must_use]
-    pub fn text(&self) -> Option<&str> {
-        None
-    }
-    /// The certificate as JSON.
-    #[must_use]
-    pub fn certificate_json(&self) -> serde_json::Value {
-        serde_json::Value::Null
-    }
-    /// The certificate in one line.
-    #[must_use]
-    pub fn summary(&self) -> String {
-        String::new()
-    }
-    /// The lowered program as text.
-    #[must_use]
-    pub fn target_text(&self) -> Option<String> {
-        None
-    }
+    /// The NC program, when it has been proven: the only thing that may be written.
+    pub proven: Option<Proven>,
 }
 
 impl Build {
-    /// The evaluated program as text.
-    #[must_use]
-    pub fn ir_text(&self) -> Option<String> {
-        None
-    }
-    /// The cutter location data as APT CL text.
-    #[must_use]
-    pub fn cl_text(&self) -> Option<String> {
-        None
-    }
     /// Whether an error is among the diagnostics.
     #[must_use]
     pub fn has_errors(&self) -> bool {
@@ -106,7 +81,7 @@ pub fn build(main: &str, files: &dyn FileProvider, options: &Options) -> Build {
     match files.read(None, main) {
         Ok((name, text)) => {
             let file = build.sources.add(name, text);
-            front(&mut build, file, &files, options, &mut sink);
+            stages(&mut build, file, &files, options, &mut sink);
         }
         Err(error) => sink.push(unreadable(main, &error)),
     }
@@ -132,18 +107,31 @@ impl FileProvider for Recorder<'_> {
     }
 }
 
-/// Source text to cutter location data.
-fn front(build: &mut Build, file: FileId, _files: &dyn FileProvider, options: &Options, sink: &mut Sink) {
+/// Runs the stages as far as they go.
+fn stages(build: &mut Build, file: FileId, files: &dyn FileProvider, options: &Options, sink: &mut Sink) {
     let text = build.sources.file(file).text.clone();
     let tree = syntax::parse(file, &text, sink);
     if options.keep_ast {
         build.ast = Some(tree);
     }
+    back(build, files, options, sink);
+}
+
+/// From cutter location data on.
+fn back(build: &mut Build, files: &dyn FileProvider, options: &Options, sink: &mut Sink) {
+    let (Some(ir), Some(cl)) = (&build.ir, &build.cl) else { return };
+    if options.check_only {
+        return;
+    }
+    let wanted = targets::wanted(&options.posts, &ir.machines, sink);
+    build.outputs = targets::make(cl, &wanted, files, &mut build.sources, sink);
 }
 
 /// By file and place; what has no place comes last. Messages at one place stay in the order they came.
+/// What several posts say alike is said once.
 fn in_source_order(mut items: Vec<Diagnostic>) -> Vec<Diagnostic> {
     items.sort_by_key(|d| d.primary.as_ref().map_or((u32::MAX, 0), |p| (p.span.file.0, p.span.start)));
+    items.dedup();
     items
 }
 

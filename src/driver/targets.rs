@@ -1,0 +1,152 @@
+//! From cutter location data to proven programs, one for every post, in parallel and in order.
+
+use std::path::Path;
+
+use rayon::prelude::*;
+
+use super::Output;
+use crate::arena::Arena;
+use crate::cl::Cl;
+use crate::diag::codes::command as codes;
+use crate::diag::{Diagnostic, Label, Severity, Sink};
+use crate::ir::{Machine, Origin};
+use crate::post::{self, Dialect};
+use crate::source::{FileProvider, SourceMap};
+use crate::target::{Capabilities, TargetProgram};
+use crate::verify::{self, Emitted, Place, Proven};
+use crate::{lower, target};
+
+/// A post that is wanted, and the `MACHIN` statement that describes its machine.
+pub(super) struct Wanted<'a> {
+    name: String,
+    machine: Option<&'a Machine>,
+}
+
+/// The posts of the command line, or else those of the program.
+pub(super) fn wanted<'a>(posts: &[String], machines: &'a [Machine], sink: &mut Sink) -> Vec<Wanted<'a>> {
+    let of_machine = |name: &str| machines.iter().find(|m| m.post.eq_ignore_ascii_case(&short_name(name)));
+    if !posts.is_empty() {
+        return posts.iter().map(|name| Wanted { name: name.clone(), machine: of_machine(name) }).collect();
+    }
+    if machines.is_empty() {
+        sink.push(Diagnostic::global(&codes::NO_POST, "no post is named").help(
+            "name one with --post, or in the program with `MACHIN/ LINUXCNC`; `partwright check` needs none",
+        ));
+    }
+    machines.iter().map(|m| Wanted { name: m.post.clone(), machine: Some(m) }).collect()
+}
+
+/// `shop/mill.post.toml` is called `mill`.
+fn short_name(name: &str) -> String {
+    let file = Path::new(name).file_name().map_or_else(|| name.into(), |f| f.to_string_lossy());
+    file.strip_suffix(".post.toml").unwrap_or(&file).to_owned()
+}
+
+/// A post with what its control can do.
+struct Ready {
+    dialect: Dialect,
+    capabilities: Capabilities,
+}
+
+/// Makes the program of every wanted post.
+pub(super) fn make(
+    cl: &Cl,
+    wanted: &[Wanted<'_>],
+    files: &dyn FileProvider,
+    sources: &mut SourceMap,
+    sink: &mut Sink,
+) -> Vec<Output> {
+    let ready: Vec<Ready> = wanted.iter().filter_map(|w| prepare(cl, w, files, sources, sink)).collect();
+    if sink.has_errors() {
+        return Vec::new();
+    }
+    let sources = &*sources;
+    let made: Vec<(Output, Sink)> = match ready.as_slice() {
+        [only] => vec![one(cl, only, sources)],
+        several => several.par_iter().map(|r| one(cl, r, sources)).collect(),
+    };
+    made.into_iter()
+        .map(|(output, messages)| {
+            sink.append(messages);
+            output
+        })
+        .collect()
+}
+
+fn prepare(
+    cl: &Cl,
+    wanted: &Wanted<'_>,
+    files: &dyn FileProvider,
+    sources: &mut SourceMap,
+    sink: &mut Sink,
+) -> Option<Ready> {
+    let place = wanted.machine.map(|m| cl.origins[m.origin].span);
+    let mut report = |mut diagnostic: Diagnostic| {
+        if diagnostic.primary.is_none() {
+            diagnostic.primary = place.map(|span| Label { span, message: String::new() });
+        }
+        sink.push(diagnostic);
+    };
+    let dialect = match post::load(&wanted.name, files, sources) {
+        Ok(dialect) => dialect,
+        Err(errors) => {
+            errors.into_iter().for_each(report);
+            return None;
+        }
+    };
+    match dialect.capabilities(cl.units, wanted.machine) {
+        Ok(capabilities) => Some(Ready { dialect, capabilities }),
+        Err(error) => {
+            report(error);
+            None
+        }
+    }
+}
+
+/// Lowers, writes and proves one program.
+fn one(cl: &Cl, ready: &Ready, sources: &SourceMap) -> (Output, Sink) {
+    let mut sink = Sink::default();
+    let target = lower::lower(cl, &ready.capabilities, &mut sink);
+    let proven = target.as_ref().and_then(|t| prove(cl, ready, t, sources, &mut sink));
+    let output = Output {
+        post: short_name(ready.dialect.name()),
+        extension: ready.dialect.extension().to_owned(),
+        units: cl.units,
+        target,
+        proven,
+    };
+    (output, sink)
+}
+
+fn prove(
+    cl: &Cl,
+    ready: &Ready,
+    target: &TargetProgram,
+    sources: &SourceMap,
+    sink: &mut Sink,
+) -> Option<Proven> {
+    let emitted = written(&ready.dialect, target, &cl.origins, sink)?;
+    let mut proven = verify::prove(cl, target, emitted, ready.dialect.control(), sink)?;
+    proven.locate(|span| {
+        let file = sources.file(span.file);
+        let (line, column) = file.line_column(span.start);
+        Place { file: file.name.clone(), line, column }
+    });
+    Some(proven)
+}
+
+fn written(
+    dialect: &Dialect,
+    target: &target::TargetProgram,
+    origins: &Arena<Origin>,
+    sink: &mut Sink,
+) -> Option<Emitted> {
+    match post::write(dialect, target, origins) {
+        Ok(written) => Some(Emitted { text: written.text, lines: written.lines }),
+        Err(errors) => {
+            debug_assert!(errors.iter().any(|e| e.severity == Severity::Error));
+            errors.into_iter().for_each(|e| sink.push(e));
+            None
+        }
+    }
+}
