@@ -154,6 +154,7 @@ fn check_templates(dialect: &Dialect, errors: &mut Vec<Diagnostic>) {
         ("templates.header".to_owned(), &templates.header),
         ("templates.operation".to_owned(), &templates.operation),
         ("templates.footer".to_owned(), &templates.footer),
+        ("tool-change.with-first-z".to_owned(), &dialect.spec.tool_change.with_first_z),
     ];
     let blocks = dialect.spec.tool_change.blocks.iter().map(|(n, t)| (format!("tool-change.blocks.{n}"), t));
     for (path, template) in fixed.into_iter().chain(blocks) {

@@ -383,6 +383,7 @@ pub struct Limits {
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 #[allow(missing_docs)]
 pub struct ToolChange {
+    pub with_first_z: String,
     pub order: Vec<String>,
     pub blocks: BTreeMap<String, String>,
 }

@@ -24,6 +24,10 @@ struct Context<'a> {
     rotary: Option<String>,
     safe_start: String,
     options: &'a std::collections::BTreeMap<String, String>,
+    /// Whether the spindle turns.
+    spindle_on: bool,
+    /// Whether coolant flows.
+    coolant_on: bool,
     /// The tool being changed to, in tool-change blocks.
     #[serde(skip_serializing_if = "Option::is_none")]
     tool: Option<ToolContext>,
@@ -83,6 +87,8 @@ pub(super) struct Events<'a> {
     tool_changes: usize,
     dwell: WordFormat,
     spindle: WordFormat,
+    spindle_on: bool,
+    coolant_on: bool,
 }
 
 impl<'a> Events<'a> {
@@ -95,7 +101,17 @@ impl<'a> Events<'a> {
         if program.capabilities.rotary.is_none() {
             writer.state.axes[3] = Some(0);
         }
-        Events { writer, program, origins, renderer, tool_changes: 0, dwell, spindle }
+        Events {
+            writer,
+            program,
+            origins,
+            renderer,
+            tool_changes: 0,
+            dwell,
+            spindle,
+            spindle_on: false,
+            coolant_on: false,
+        }
     }
 
     pub fn into_writer(self) -> Writer<'a> {
@@ -167,7 +183,10 @@ impl<'a> Events<'a> {
                 self.template(&format!("tool-change.blocks.{name}"), template, &context);
             }
         }
+        self.writer.with_first_z = self.words("tool-change.with-first-z", &change.with_first_z, &context);
         self.tool_changes += 1;
+        self.spindle_on = false;
+        self.coolant_on = false;
         self.writer.state.feed = None;
         self.writer.state.motion = None;
         let rotary = self.program.capabilities.rotary.is_none().then_some(0);
@@ -207,6 +226,18 @@ impl<'a> Events<'a> {
         }
     }
 
+    /// A template that gives words for a block.
+    fn words(&mut self, path: &str, template: &str, context: &Value) -> Vec<u8> {
+        match self.renderer.lines(template, context) {
+            Ok(lines) => lines.join(" ").into_bytes(),
+            Err(error) => {
+                let diagnostic = template_error(self.writer.dialect, path, &error);
+                self.writer.errors.push(diagnostic);
+                Vec::new()
+            }
+        }
+    }
+
     fn template_line(&mut self, line: &str) {
         if !line.bytes().all(|b| b.is_ascii_graphic() || b == b' ') {
             let message = format!("a template printed a character that is no printable ASCII: {line:?}");
@@ -234,6 +265,7 @@ impl<'a> Events<'a> {
 
     fn spindle(&mut self, spindle: Spindle) {
         let words = &self.writer.dialect.spec.spindle;
+        self.spindle_on = spindle != Spindle::Off;
         self.writer.begin_line(true);
         match spindle {
             Spindle::Off => self.writer.text(words.off.as_bytes()),
@@ -263,6 +295,7 @@ impl<'a> Events<'a> {
     }
 
     fn coolant(&mut self, coolant: Coolant) {
+        self.coolant_on = coolant != Coolant::Off;
         let words = &self.writer.dialect.spec.coolant;
         let code = match coolant {
             Coolant::Off => &words.off,
@@ -456,6 +489,8 @@ impl<'a> Events<'a> {
             rotary: self.program.capabilities.rotary.map(|r| r.letter.to_string()),
             safe_start: self.safe_start(),
             options: &dialect.spec.options,
+            spindle_on: self.spindle_on,
+            coolant_on: self.coolant_on,
             tool: None,
             first: None,
             spindle: None,
@@ -497,7 +532,9 @@ impl<'a> Events<'a> {
         };
         let number = tool.number.unwrap_or(0);
         let name = self.writer.dialect.spec.comments.clean(&tool.name);
-        let text = format!("T{number} {name}, {kind}, D={}", length(tool.diameter));
+        let called = format!("T{number}");
+        let label = if name.eq_ignore_ascii_case(&called) { called } else { format!("{called} {name}") };
+        let text = format!("{label}, {kind}, D={}", length(tool.diameter));
         ToolContext { number, name, kind, diameter: length(tool.diameter), corner: length(tool.corner), text }
     }
 

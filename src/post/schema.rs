@@ -280,6 +280,11 @@ const LIMITS: &[Key] = &[
 ];
 const TOOL_CHANGE: &[Key] = &[
     key("order", Shape::TextList, "names of the blocks to print, in order"),
+    key(
+        "with-first-z",
+        Shape::Text,
+        "template of words that go into the first block that moves Z, before its own",
+    ),
     key("blocks", Shape::Texts, "the blocks, each a template; an empty answer prints nothing"),
 ];
 const TEMPLATES: &[Key] = &[

@@ -50,6 +50,8 @@ pub(super) struct Writer<'a> {
     pub state: ModalState,
     /// Where the machine is, printed or not.
     pub position: Position,
+    /// Words that wait for the first block that moves Z.
+    pub with_first_z: Vec<u8>,
     /// Start of the current line in `out`, and of its words after a block number.
     line_start: usize,
     words_start: usize,
@@ -76,6 +78,7 @@ impl<'a> Writer<'a> {
             out: Vec::with_capacity(capacity),
             state: ModalState::default(),
             position: Position::default(),
+            with_first_z: Vec::new(),
             line_start: 0,
             words_start: 0,
             line: 0,
@@ -222,6 +225,10 @@ impl<'a> Writer<'a> {
         };
         if self.has_something_to_do(&block) {
             self.begin_line(true);
+            if !self.with_first_z.is_empty() && block.axes & axes::Z != 0 {
+                let words = core::mem::take(&mut self.with_first_z);
+                self.text(&words);
+            }
             self.items(&block);
             self.end_line();
             self.arrive(&block);

@@ -1,0 +1,135 @@
+//! Hand-made target programs.
+
+use crate::arena::{Arena, Handle};
+use crate::ir::{CutterKind, Machine, Origin, Rotary, Tool};
+use crate::post::{Dialect, Written, load, write};
+use crate::source::{FileId, MemoryFiles, SourceMap, Span};
+use crate::target::{Block, BlockKind, FeedWord, Motion, Nurbs, Position, TargetProgram, axes};
+use crate::units::LengthUnit;
+
+/// A built-in dialect.
+pub fn builtin(name: &str) -> Dialect {
+    let mut sources = SourceMap::default();
+    load(name, &MemoryFiles::default(), &mut sources).unwrap_or_else(|errors| panic!("{name}: {errors:#?}"))
+}
+
+/// A program under construction; positions are in steps.
+pub struct Sheet {
+    pub dialect: Dialect,
+    pub program: TargetProgram,
+    origins: Arena<Origin>,
+    origin: Handle<Origin>,
+    at: Position,
+}
+
+impl Sheet {
+    pub fn new(dialect: Dialect, unit: LengthUnit, rotary: Option<char>) -> Sheet {
+        let mut origins = Arena::default();
+        let origin = origins.push(Origin { span: Span::new(FileId(0), 0, 1), calls: Vec::new() });
+        let machine = Machine {
+            post: dialect.name().into(),
+            rotary: rotary.map(|letter| Rotary { letter: Some(letter), reversed: false }),
+            options: Vec::new(),
+            origin,
+        };
+        let capabilities = dialect.capabilities(unit, Some(&machine)).unwrap();
+        let program = TargetProgram {
+            title: None,
+            capabilities,
+            tools: vec![tool(origin)],
+            pieces: Vec::new(),
+            nurbs: Vec::new(),
+            blocks: Vec::new(),
+        };
+        let sheet = Sheet { dialect, program, origins, origin, at: Position::default() };
+        sheet.event(BlockKind::Begin)
+    }
+    pub fn mm(name: &str) -> Sheet {
+        Sheet::new(builtin(name), LengthUnit::Millimetre, None)
+    }
+    /// A program whose machine is at a known point.
+    pub fn at(name: &str, x: i64, y: i64) -> Sheet {
+        Sheet::mm(name).rapid(x, y, 0, axes::X | axes::Y | axes::Z)
+    }
+    pub fn title(mut self, title: &str) -> Sheet {
+        self.program.title = Some(title.into());
+        self
+    }
+    pub fn event(mut self, kind: BlockKind) -> Sheet {
+        self.program.blocks.push(Block { kind, origin: self.origin, piece: None });
+        self
+    }
+    pub fn rapid(mut self, x: i64, y: i64, z: i64, moved: u8) -> Sheet {
+        self.at = Position { x, y, z, ..self.at };
+        let to = self.at;
+        self.event(BlockKind::Motion(Motion::Rapid { to, axes: moved }))
+    }
+    pub fn line_at(mut self, x: i64, y: i64, z: i64, r: i64, feed: FeedWord) -> Sheet {
+        self.at = Position { x, y, z, r };
+        let to = self.at;
+        self.event(BlockKind::Motion(Motion::Line { to, feed }))
+    }
+    /// 300 units a minute.
+    pub fn minute(&self) -> FeedWord {
+        FeedWord::PerMinute(300 * 10i64.pow(u32::from(self.program.capabilities.grid.feed_decimals)))
+    }
+    pub fn line(self, x: i64, y: i64) -> Sheet {
+        let (feed, at) = (self.minute(), self.at);
+        self.line_at(x, y, at.z, at.r, feed)
+    }
+    pub fn line_z(self, z: i64) -> Sheet {
+        let (feed, at) = (self.minute(), self.at);
+        self.line_at(at.x, at.y, z, at.r, feed)
+    }
+    pub fn arc(mut self, x: i64, y: i64, centre: [i64; 2], clockwise: bool) -> Sheet {
+        self.at = Position { x, y, ..self.at };
+        let (to, feed) = (self.at, self.minute());
+        self.event(BlockKind::Motion(Motion::Arc { to, centre, clockwise, feed }))
+    }
+    pub fn nurbs(mut self, nurbs: Nurbs) -> Sheet {
+        self.at = nurbs.points.last().map_or(self.at, |p| p.0);
+        let curve = u32::try_from(self.program.nurbs.len()).unwrap();
+        self.program.nurbs.push(nurbs);
+        let feed = self.minute();
+        self.event(BlockKind::Motion(Motion::Nurbs { curve, feed }))
+    }
+    pub fn written(&self) -> Result<Written, Vec<crate::diag::Diagnostic>> {
+        write(&self.dialect, &self.program, &self.origins)
+    }
+    pub fn text(&self) -> String {
+        self.written().unwrap_or_else(|errors| panic!("{errors:#?}")).text
+    }
+    /// The lines after the header.
+    pub fn body(&self) -> Vec<String> {
+        self.after(0)
+    }
+    /// The lines after the first block that follows the header and brings the machine to its start.
+    pub fn rest(&self) -> Vec<String> {
+        self.after(1)
+    }
+    fn after(&self, block: usize) -> Vec<String> {
+        let written = self.written().unwrap_or_else(|errors| panic!("{errors:#?}"));
+        written.text.lines().skip(written.lines[block].1 as usize - 1).map(str::to_owned).collect()
+    }
+    /// The codes of the errors.
+    pub fn codes(&self) -> Vec<&'static str> {
+        self.written().err().unwrap_or_default().iter().map(|d| d.code.id).collect()
+    }
+}
+
+fn tool(origin: Handle<Origin>) -> Tool {
+    Tool {
+        name: "T1".into(),
+        kind: CutterKind::Flat,
+        diameter: 16.0,
+        corner: 0.0,
+        profile: [0.0; 5],
+        number: Some(1),
+        flutes: None,
+        helix: None,
+        length: None,
+        stick_out: None,
+        material: None,
+        origin,
+    }
+}
