@@ -18,6 +18,7 @@ pub mod bound;
 mod chain;
 mod lines;
 pub mod measure;
+pub mod nurbs;
 #[cfg(test)]
 mod samples;
 mod search;
@@ -29,6 +30,7 @@ mod window;
 
 pub use arcs::arcs;
 pub use lines::lines;
+pub use nurbs::{Knots, nurbs};
 pub use spirals::spirals;
 
 use crate::geom::Point2;

@@ -7,22 +7,20 @@
 use nalgebra::{DMatrix, DVector};
 
 /// Variables in a block (one block a joint).
-pub(super) const BLOCK: usize = 3;
+pub(in crate::lower::fit) const BLOCK: usize = 3;
 /// Most variables a row touches.
-pub(super) const WIDTH: usize = 9;
+pub(in crate::lower::fit) const WIDTH: usize = 12;
 /// Half bandwidth of the normal equations.
 const BAND: usize = WIDTH - 1;
-/// Damping of a least change, relative to the largest coefficient's square.
-const DAMPING: f64 = 1e-9;
 /// Interior-point iterations at most.
 const ITERATIONS: usize = 40;
 
 /// One two-sided row: |coefficients · x + value| <= limit + slope · t.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Row {
+pub(in crate::lower::fit) struct Row {
     /// First block it touches; block numbers wrap.
     pub block: usize,
-    /// Coefficients of the variables of three blocks.
+    /// Coefficients of the variables of four blocks (three at most in a cyclic problem).
     pub coefficients: [f64; WIDTH],
     /// Value at x = 0.
     pub value: f64,
@@ -34,7 +32,7 @@ pub(super) struct Row {
 
 /// The problem: rows over `blocks` cyclic blocks.
 #[derive(Debug)]
-pub(super) struct Problem {
+pub(in crate::lower::fit) struct Problem {
     /// Number of blocks of variables.
     pub blocks: usize,
     /// Whether rows wrap from the last block to the first.
@@ -45,7 +43,7 @@ pub(super) struct Problem {
 
 /// Solution of a [`Problem`].
 #[derive(Debug, Clone)]
-pub(super) struct Solution {
+pub(in crate::lower::fit) struct Solution {
     /// Variables.
     pub x: Vec<f64>,
     /// Least bound.
@@ -261,8 +259,9 @@ impl Problem {
         sum
     }
 
-    /// The x of least norm for which the rows' values become (almost) zero: damped least squares.
-    pub fn least_change(&self) -> Option<Vec<f64>> {
+    /// Damped least squares: the x that makes the rows' values small, `damping` relative to the largest squared
+    /// coefficient; with little damping the x of least norm for which they become zero.
+    pub fn least_change(&self, damping: f64) -> Option<Vec<f64>> {
         let mut matrix = Arrow::new(self);
         let mut rhs = vec![0.0; self.variables() + 1];
         let mut largest = 0.0_f64;
@@ -274,7 +273,7 @@ impl Problem {
             }
         }
         for v in 0..self.variables() {
-            matrix.put(v, v, DAMPING * largest + 1e-300);
+            matrix.put(v, v, damping * largest + 1e-300);
         }
         if !matrix.factor() {
             return None;

@@ -10,14 +10,14 @@
 mod certify;
 mod chain;
 mod exact;
-mod minimax;
+pub(in crate::lower::fit) mod minimax;
 mod optimise;
 mod round;
 mod search;
-mod start;
-mod stretch;
+pub(in crate::lower::fit) mod start;
+pub(in crate::lower::fit) mod stretch;
 #[cfg(test)]
-mod tests;
+pub(in crate::lower::fit) mod tests;
 
 use certify::Extremes;
 use chain::{Band, Chain, Goal, Hold, Joint};
@@ -76,7 +76,11 @@ fn joined(fits: Vec<Rounded>) -> Fit {
 }
 
 /// Grid points at the ends of the stretches; an open curve has one more than stretches.
-fn vertices(tube: &Tube<'_>, grid: &Grid, list: &[Stretch<'_>]) -> Result<Vec<[i64; 2]>, FitError> {
+pub(in crate::lower::fit) fn vertices(
+    tube: &Tube<'_>,
+    grid: &Grid,
+    list: &[Stretch<'_>],
+) -> Result<Vec<[i64; 2]>, FitError> {
     let mut out = Vec::new();
     let closed = tube.curve.is_closed();
     for (i, stretch) in list.iter().enumerate() {
@@ -90,6 +94,27 @@ fn vertices(tube: &Tube<'_>, grid: &Grid, list: &[Stretch<'_>]) -> Result<Vec<[i
         out.push(vertex(tube, grid, list.last(), None)?);
     }
     Ok(out)
+}
+
+/// Grid point near station `s` of a closed stretch, in the middle of the band.
+pub(in crate::lower::fit) fn vertex_at(
+    tube: &Tube<'_>,
+    grid: &Grid,
+    stretch: &Stretch<'_>,
+    s: f64,
+) -> Result<[i64; 2], FitError> {
+    let frame = stretch.at(s);
+    round::nearest(grid, frame.p + left(frame.t) * (0.5 * (tube.left - tube.right)))
+}
+
+/// A point of the grid, mm.
+pub(in crate::lower::fit) fn grid_point(grid: &Grid, q: [i64; 2]) -> Point2 {
+    round::point(grid, q)
+}
+
+/// Nearest grid point.
+pub(in crate::lower::fit) fn nearest_grid_point(grid: &Grid, p: Point2) -> Result<[i64; 2], FitError> {
+    round::nearest(grid, p)
 }
 
 /// The grid point in both bands that is nearest to the middle of both.

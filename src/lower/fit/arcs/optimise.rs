@@ -20,6 +20,8 @@ pub(super) struct Stop {
 const LINEAR: f64 = 1e-3;
 /// Largest move of a joint along the curve in one iteration, as a share of the shorter arc beside it.
 const SLIDE: f64 = 0.35;
+/// Damping of a restoration, relative to the largest squared coefficient.
+const DAMPING: f64 = 1e-9;
 /// Newton steps that make a chain tangent-continuous.
 const RESTORATIONS: usize = 3;
 /// Least room to either side of a bounded variable, in units of its scale.
@@ -78,7 +80,7 @@ fn restore(chain: &mut Chain, stretch: &Stretch<'_>, goal: &Goal) {
         }
         let mut problem = Problem { blocks: chain.joints.len(), cyclic: chain.closed, rows };
         scale_rows(&mut problem.rows, &scales);
-        let Some(x) = problem.least_change() else { return };
+        let Some(x) = problem.least_change(DAMPING) else { return };
         let step: Vec<f64> = x.iter().zip(&scales).map(|(x, s)| x * s).collect();
         *chain = chain.moved(stretch, &step);
     }

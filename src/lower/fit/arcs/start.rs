@@ -11,7 +11,7 @@ const FLOOR: f64 = 0.02;
 
 /// Density of joints along a stretch: the cube root of the curvature's variation, smoothed over a window.
 #[derive(Debug)]
-pub(super) struct Density {
+pub(in crate::lower::fit) struct Density {
     /// Integral up to every sample.
     pub sums: Vec<f64>,
 }

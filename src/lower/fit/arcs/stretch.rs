@@ -6,7 +6,7 @@ use crate::lower::fit::FitError;
 use crate::math;
 
 /// Tangent jumps up to this many radians are not corners (a fifth of what a joint may have).
-pub(super) const CORNER: f64 = 0.01 * math::DEG;
+pub(in crate::lower::fit) const CORNER: f64 = 0.01 * math::DEG;
 /// Largest turning between two samples, radians.
 const SAMPLE_TURN: f64 = 0.16;
 /// Samples per optimal arc, about: bounds |Δk| Δs² by 72√3 δ / SAMPLES³.
@@ -16,7 +16,7 @@ const SAMPLE_DEPTH: u32 = 24;
 
 /// One sample of the exact curve.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Sample {
+pub(in crate::lower::fit) struct Sample {
     /// Curve parameter.
     pub u: f64,
     /// Arc length from the start of the stretch, mm.
@@ -33,7 +33,7 @@ pub(super) struct Sample {
 
 /// A smooth span of the curve as part of a stretch.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Span {
+pub(in crate::lower::fit) struct Span {
     /// Index among the curve's spans.
     pub index: usize,
     /// Index of its first and last sample.
@@ -42,7 +42,7 @@ pub(super) struct Span {
 
 /// A stretch of a curve without corners inside.
 #[derive(Debug)]
-pub(super) struct Stretch<'a> {
+pub(in crate::lower::fit) struct Stretch<'a> {
     /// The exact curve.
     pub curve: &'a dyn PlanarCurve,
     /// Samples; the last of a span and the first of the next have the same `s`.
@@ -126,13 +126,16 @@ impl<'a> Stretch<'a> {
 }
 
 /// Angle from `a` to `b`, radians, in (-π, π].
-pub(super) fn turn(a: Vec2, b: Vec2) -> f64 {
+pub(in crate::lower::fit) fn turn(a: Vec2, b: Vec2) -> f64 {
     math::atan2(cross(a, b), a.dot(&b))
 }
 
 /// Cuts the curve at its corners and samples the stretches. `half` is the half width of the band, mm;
 /// `start` a preferred start parameter for a closed curve without corners.
-pub(super) fn stretches(curve: &dyn PlanarCurve, half: f64) -> Result<Vec<Stretch<'_>>, FitError> {
+pub(in crate::lower::fit) fn stretches(
+    curve: &dyn PlanarCurve,
+    half: f64,
+) -> Result<Vec<Stretch<'_>>, FitError> {
     let breaks = curve.breaks();
     let spans = breaks.len().saturating_sub(1);
     if spans == 0 {

@@ -9,7 +9,7 @@ use crate::math;
 
 /// Pitch curve C = (r + s(θ)) u of a plate cam with dwell-rise-dwell-return segments, modified sine.
 #[derive(Debug)]
-pub(super) struct Pitch {
+pub(in crate::lower::fit) struct Pitch {
     radius: f64,
     lift: f64,
     breaks: Vec<f64>,
@@ -112,7 +112,7 @@ impl PlanarCurve for Pitch {
     }
 }
 
-pub(super) fn paper() -> CurveRef {
+pub(in crate::lower::fit) fn paper() -> CurveRef {
     Arc::new(Pitch::paper())
 }
 
