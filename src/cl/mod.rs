@@ -16,6 +16,7 @@ use crate::geom::{Point3, Side};
 use crate::ir::{Band, Coolant, Feed, Interpolation, Origin, Spindle, Tool};
 use crate::units::LengthUnit;
 
+pub mod lead;
 pub mod print;
 
 /// Cutter location data of one program.
@@ -48,6 +49,28 @@ pub struct Operation {
     pub band: Band,
     /// What the cutter must stay out of (and rapids clear of).
     pub guard: Guard,
+    /// What clearing takes, for operations that remove bulk stock.
+    pub effort: Option<Effort>,
+}
+
+/// What a clearing operation takes, over all its levels, for the report.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+pub struct Effort {
+    /// Path on which the cutter is meant to be in the stock, mm.
+    pub engaged: f64,
+    /// Path at feed between passes, mm.
+    pub links: f64,
+    /// Both at the cutting feed, s; `None` when the feed is not per minute.
+    pub time: Option<f64>,
+    /// Area to remove at one level, mm².
+    pub area: f64,
+    /// Largest radial depth of cut, mm.
+    pub engagement: f64,
+    /// Axial levels.
+    pub levels: u32,
+    /// Path that no plan of straight or outward-curved passes can go below at this radial depth: area over
+    /// depth, times levels, mm.
+    pub bound: f64,
 }
 
 /// The material that `verify` protects during an operation and after it.
@@ -146,10 +169,11 @@ pub struct Contour {
     pub start: Option<f64>,
 }
 
-/// How a contour is joined to the rest. Leads lie on the side away from the part.
+/// How a contour is joined to the rest ([`lead`] has the geometry). Leads lie on the side away from the part.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Lead {
-    /// Start (end) of the curve itself, no approach: the planner has placed the cutter there.
+    /// Start (end) of the curve itself, no approach and no retract: the cutter is at the level's height
+    /// already, at or near the curve's first point, and goes there straight at feed.
     None,
     /// Straight down at the first (up at the last) point.
     Plunge,
