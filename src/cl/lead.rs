@@ -94,9 +94,7 @@ mod tests {
 
     #[test]
     fn an_entry_arc_ends_on_the_contour_with_its_tangent_and_comes_from_the_clear_side() {
-        for (part, start) in
-            [(Side::Right, Point2::new(-2.0, 7.0)), (Side::Left, Point2::new(-2.0, -3.0))]
-        {
+        for (part, start) in [(Side::Right, Point2::new(-2.0, 7.0)), (Side::Left, Point2::new(-2.0, -3.0))] {
             let LeadPath::Arc { from, to, centre, ccw, .. } = entry(Lead::Arc(5.0), &along_x(), part) else {
                 panic!("an arc")
             };

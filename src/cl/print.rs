@@ -333,7 +333,8 @@ mod tests {
 
     #[test]
     fn numbers_are_the_shortest_that_read_back_and_never_minus_zero() {
-        let cases = [(0.1 + 0.2, "0.3"), (-0.0, "0"), (-1e-12, "0"), (28.0, "28"), (1e20, "100000000000000000000")];
+        let cases =
+            [(0.1 + 0.2, "0.3"), (-0.0, "0"), (-1e-12, "0"), (28.0, "28"), (1e20, "100000000000000000000")];
         for (value, text) in cases {
             assert_eq!(number(value), text);
         }

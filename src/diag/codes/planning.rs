@@ -9,5 +9,127 @@ pub const NO_TOOL: Code = Code {
     page: include_str!("../../../docs/diagnostics/E0501.md"),
 };
 
+/// the spindle is off at a cut.
+pub const SPINDLE_OFF: Code = Code {
+    id: "E0502",
+    title: "the spindle is off at a cut",
+    page: include_str!("../../../docs/diagnostics/E0502.md"),
+};
+
+/// no feed is set at a cut.
+pub const NO_FEED: Code = Code {
+    id: "E0503",
+    title: "no feed is set at a cut",
+    page: include_str!("../../../docs/diagnostics/E0503.md"),
+};
+
+/// a feed per tooth needs the number of flutes.
+pub const NO_FLUTES: Code = Code {
+    id: "E0504",
+    title: "a feed per tooth needs the number of flutes",
+    page: include_str!("../../../docs/diagnostics/E0504.md"),
+};
+
+/// the cutter is too large for the contour.
+pub const CUTTER_TOO_LARGE: Code = Code {
+    id: "E0505",
+    title: "the cutter is too large for the contour",
+    page: include_str!("../../../docs/diagnostics/E0505.md"),
+};
+
+/// the cutter does not fit the groove.
+pub const CUTTER_WIDER_THAN_GROOVE: Code = Code {
+    id: "E0506",
+    title: "the cutter does not fit the groove",
+    page: include_str!("../../../docs/diagnostics/E0506.md"),
+};
+
+/// the cut is deeper than the cutter reaches.
+pub const TOO_DEEP: Code = Code {
+    id: "E0507",
+    title: "the cut is deeper than the cutter reaches",
+    page: include_str!("../../../docs/diagnostics/E0507.md"),
+};
+
+/// the blank is smaller than the part.
+pub const STOCK_TOO_SMALL: Code = Code {
+    id: "E0508",
+    title: "the blank is smaller than the part",
+    page: include_str!("../../../docs/diagnostics/E0508.md"),
+};
+
+/// a plate cam is roughed from a round blank only.
+pub const STOCK_NOT_ROUND: Code = Code {
+    id: "E0509",
+    title: "a plate cam is roughed from a round blank only",
+    page: include_str!("../../../docs/diagnostics/E0509.md"),
+};
+
+/// the edges of a contour do not join.
+pub const EDGES_DO_NOT_JOIN: Code = Code {
+    id: "E0510",
+    title: "the edges of a contour do not join",
+    page: include_str!("../../../docs/diagnostics/E0510.md"),
+};
+
+/// no roughing plan clears the blank.
+pub const NO_ROUGHING_PLAN: Code = Code {
+    id: "E0511",
+    title: "no roughing plan clears the blank",
+    page: include_str!("../../../docs/diagnostics/E0511.md"),
+};
+
+/// roughing takes this path and time.
+pub const ROUGHING_FIGURES: Code = Code {
+    id: "N0520",
+    title: "roughing takes this path and time",
+    page: include_str!("../../../docs/diagnostics/N0520.md"),
+};
+
+/// the cutter's rounded end does not reach the foot of the wall.
+pub const ROUNDED_END: Code = Code {
+    id: "N0521",
+    title: "the cutter's rounded end does not reach the foot of the wall",
+    page: include_str!("../../../docs/diagnostics/N0521.md"),
+};
+
+/// there is no room for a tangent lead.
+pub const NO_ROOM_FOR_LEAD: Code = Code {
+    id: "N0522",
+    title: "there is no room for a tangent lead",
+    page: include_str!("../../../docs/diagnostics/N0522.md"),
+};
+
+/// a tapered cutter leaves a sloping wall.
+pub const TAPERED_WALL: Code = Code {
+    id: "W0530",
+    title: "a tapered cutter leaves a sloping wall",
+    page: include_str!("../../../docs/diagnostics/W0530.md"),
+};
+
+/// the cut is deeper than the cutter sticks out.
+pub const HOLDER_RUBS: Code = Code {
+    id: "W0531",
+    title: "the cut is deeper than the cutter sticks out of its holder",
+    page: include_str!("../../../docs/diagnostics/W0531.md"),
+};
+
 /// All codes of this area.
-pub const ALL: &[&Code] = &[&NO_TOOL];
+pub const ALL: &[&Code] = &[
+    &NO_TOOL,
+    &SPINDLE_OFF,
+    &NO_FEED,
+    &NO_FLUTES,
+    &CUTTER_TOO_LARGE,
+    &CUTTER_WIDER_THAN_GROOVE,
+    &TOO_DEEP,
+    &STOCK_TOO_SMALL,
+    &STOCK_NOT_ROUND,
+    &EDGES_DO_NOT_JOIN,
+    &NO_ROUGHING_PLAN,
+    &ROUGHING_FIGURES,
+    &ROUNDED_END,
+    &NO_ROOM_FOR_LEAD,
+    &TAPERED_WALL,
+    &HOLDER_RUBS,
+];

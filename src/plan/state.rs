@@ -1,0 +1,190 @@
+//! The machine's state while planning, and the records that change it.
+
+use super::Planner;
+use crate::arena::Handle;
+use crate::cl::{Record, RecordKind};
+use crate::diag::Diagnostic;
+use crate::diag::codes::planning::{NO_FEED, NO_FLUTES, NO_TOOL, SPINDLE_OFF};
+use crate::geom::Point3;
+use crate::ir::{Feed, Origin, Spindle, Tool};
+
+/// What has been commanded so far.
+#[derive(Debug)]
+pub(super) struct State {
+    pub tool: Option<Handle<Tool>>,
+    pub spindle: Spindle,
+    /// As programmed.
+    pub feed: Option<Feed>,
+    /// As last recorded.
+    pub recorded_feed: Option<Feed>,
+    pub position: Option<Point3>,
+}
+
+impl Default for State {
+    fn default() -> State {
+        State { tool: None, spindle: Spindle::Off, feed: None, recorded_feed: None, position: None }
+    }
+}
+
+/// What a cut needs, found to be there.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Ready {
+    /// Feed as recorded.
+    pub feed: Feed,
+    pub clockwise: bool,
+}
+
+impl Ready {
+    /// mm/min, when the feed is one.
+    pub fn per_minute(&self) -> Option<f64> {
+        match self.feed {
+            Feed::PerMinute(v) => Some(v),
+            Feed::PerRevolution(_) | Feed::PerTooth(_) => None,
+        }
+    }
+}
+
+impl Planner<'_> {
+    pub(super) fn emit(&mut self, kind: RecordKind, origin: Handle<Origin>) {
+        self.cl.records.push(Record { kind, origin });
+    }
+
+    pub(super) fn load(&mut self, tool: Handle<Tool>, origin: Handle<Origin>) {
+        self.state.tool = Some(tool);
+        self.state.position = None;
+        self.emit(RecordKind::LoadTool(tool), origin);
+    }
+
+    pub(super) fn spindle(&mut self, spindle: Spindle, origin: Handle<Origin>) {
+        self.state.spindle = spindle;
+        self.emit(RecordKind::Spindle(spindle), origin);
+    }
+
+    /// A feed per tooth waits for the cut that uses it: speed and flutes may still change.
+    pub(super) fn feed(&mut self, feed: Feed, origin: Handle<Origin>) {
+        self.state.feed = Some(feed);
+        if !matches!(feed, Feed::PerTooth(_)) {
+            self.record_feed(feed, origin);
+        }
+    }
+
+    fn record_feed(&mut self, feed: Feed, origin: Handle<Origin>) {
+        if self.state.recorded_feed != Some(feed) {
+            self.state.recorded_feed = Some(feed);
+            self.emit(RecordKind::Feed(feed), origin);
+        }
+    }
+
+    pub(super) fn from(&mut self, point: Point3, origin: Handle<Origin>) {
+        self.state.position = Some(point);
+        self.emit(RecordKind::From(point), origin);
+    }
+
+    pub(super) fn rapid(&mut self, to: Point3, origin: Handle<Origin>) {
+        self.state.position = Some(to);
+        self.emit(RecordKind::Rapid(to), origin);
+    }
+
+    pub(super) fn linear(&mut self, to: Point3, origin: Handle<Origin>) {
+        self.state.position = Some(to);
+        self.emit(RecordKind::Linear(to), origin);
+    }
+
+    /// A `GOTO` at feed.
+    pub(super) fn goto(&mut self, to: Point3, origin: Handle<Origin>) {
+        if self.ready("GOTO", None, origin).is_some() {
+            self.linear(to, origin);
+        }
+    }
+
+    /// Tool, spindle and feed for a cut; what is missing is reported, all of it at once.
+    pub(super) fn ready(
+        &mut self,
+        what: &str,
+        tool: Option<Handle<Tool>>,
+        origin: Handle<Origin>,
+    ) -> Option<Ready> {
+        let tool = self.need_tool(what, tool, origin);
+        let spindle = self.need_spindle(what, origin);
+        let feed = self.need_feed(what, tool, spindle, origin);
+        let (rpm_sense, feed) = (spindle?, feed?);
+        self.record_feed(feed, origin);
+        tool?;
+        Some(Ready { feed, clockwise: rpm_sense.1 })
+    }
+
+    fn need_tool(
+        &mut self,
+        what: &str,
+        tool: Option<Handle<Tool>>,
+        origin: Handle<Origin>,
+    ) -> Option<Handle<Tool>> {
+        let tool = tool.or(self.state.tool);
+        if tool.is_none() {
+            let message = format!("{what} cuts, but no tool has been loaded");
+            let diagnostic = Diagnostic::new(&NO_TOOL, self.span(origin), message)
+                .help("declare a cutter and load it first: `T1 = CUTTER/ 16, FLUTES, 4` and `LOADTL/ T1`");
+            self.report(diagnostic, origin);
+        }
+        tool
+    }
+
+    /// Speed in rev/min and whether clockwise.
+    fn need_spindle(&mut self, what: &str, origin: Handle<Origin>) -> Option<(f64, bool)> {
+        match self.state.spindle {
+            Spindle::On { rpm, clockwise } => Some((rpm, clockwise)),
+            Spindle::Off => {
+                let message = format!("{what} cuts, but the spindle is off");
+                let diagnostic = Diagnostic::new(&SPINDLE_OFF, self.span(origin), message)
+                    .help("start it first: `SPINDL/ 1200, CLW`");
+                self.report(diagnostic, origin);
+                None
+            }
+        }
+    }
+
+    fn need_feed(
+        &mut self,
+        what: &str,
+        tool: Option<Handle<Tool>>,
+        spindle: Option<(f64, bool)>,
+        origin: Handle<Origin>,
+    ) -> Option<Feed> {
+        match self.state.feed {
+            Some(Feed::PerTooth(feed)) => self.feed_of_teeth(feed, tool?, spindle?.0, origin),
+            Some(feed) => Some(feed),
+            None => {
+                let message = format!("{what} cuts, but no feed has been set");
+                let diagnostic = Diagnostic::new(&NO_FEED, self.span(origin), message)
+                    .help("set it first: `FEDRAT/ 300, MMPM`");
+                self.report(diagnostic, origin);
+                None
+            }
+        }
+    }
+
+    /// mm/tooth into mm/min: feed × flutes × speed.
+    fn feed_of_teeth(
+        &mut self,
+        feed: f64,
+        tool: Handle<Tool>,
+        rpm: f64,
+        origin: Handle<Origin>,
+    ) -> Option<Feed> {
+        let cutter = &self.program.tools[tool];
+        let Some(flutes) = cutter.flutes.filter(|n| *n > 0) else {
+            let message = format!(
+                "the feed is {} per tooth, but cutter {} does not say how many flutes it has",
+                self.show(feed),
+                cutter.name
+            );
+            let declared = self.span(cutter.origin);
+            let diagnostic = Diagnostic::new(&NO_FLUTES, self.span(origin), message)
+                .label(declared, "the cutter is declared here")
+                .help(format!("add its flutes: `{} = CUTTER/ …, FLUTES, 4`", cutter.name));
+            self.report(diagnostic, origin);
+            return None;
+        };
+        Some(Feed::PerMinute(feed * f64::from(flutes) * rpm))
+    }
+}
