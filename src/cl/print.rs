@@ -92,7 +92,8 @@ impl Printer<'_> {
     fn begin(&mut self, index: u32) {
         let Some(operation) = self.cl.operations.get(index as usize) else { return };
         let (kind, name) = (operation.kind, &operation.name);
-        self.line(format_args!("$$ OPERATION {} {kind} {name}", index + 1));
+        let kind = if name.starts_with(kind) { String::new() } else { format!("{kind} ") };
+        self.line(format_args!("$$ OPERATION {}: {kind}{name}", index + 1));
         self.tolerance(operation);
         if let Some(effort) = operation.effort {
             self.effort(&effort);

@@ -10,6 +10,8 @@ mod profile;
 mod room;
 mod rough;
 mod state;
+#[cfg(test)]
+mod tests;
 mod track;
 
 use crate::arena::Handle;

@@ -6,9 +6,8 @@ use std::sync::Arc;
 use super::moves::{Move, Plan};
 use super::{Job, best_plan};
 use crate::geom::curve::{CurveRef, Ends, PlanarCurve, Reversed, Spline};
-use crate::geom::motion::Law;
 use crate::geom::{Point2, Side, Vec2, cross};
-use crate::ir::Band;
+use crate::ir::{Band, Flank};
 use crate::math::{PI, TAU, sin_cos};
 use crate::plan::room::Samples;
 
@@ -33,36 +32,9 @@ fn flat_faced(base: f64, lift: f64, lobes: u32) -> CurveRef {
     Arc::new(Spline::new(&points, Ends::Periodic).expect("points differ"))
 }
 
-/// The cam of Kim & Yang: base circle 20, roller 8, lift 20, modified sine, by the roller's envelope.
+/// The cam of Kim & Yang: base circle 20, roller 8, lift 20, modified sine.
 fn paper_cam() -> CurveRef {
-    let law = Law::by_name("MODSIN").expect("a law");
-    let lift = |degrees: f64| -> (f64, f64) {
-        let span = 120.0 * PI / 180.0;
-        let rise = |x: f64| {
-            let l = law.at(x);
-            (20.0 * l.s, 20.0 * l.v / span)
-        };
-        match degrees {
-            d if (30.0..150.0).contains(&d) => rise((d - 30.0) / 120.0),
-            d if (150.0..210.0).contains(&d) => (20.0, 0.0),
-            d if (210.0..330.0).contains(&d) => {
-                let (s, v) = rise((330.0 - d) / 120.0);
-                (s, -v)
-            }
-            _ => (0.0, 0.0),
-        }
-    };
-    let points: Vec<Point2> = (0..1440)
-        .map(|i| {
-            let degrees = f64::from(i) / 4.0;
-            let (sin, cos) = sin_cos(degrees * PI / 180.0);
-            let (u, n) = (Vec2::new(cos, sin), Vec2::new(-sin, cos));
-            let (s, v) = lift(degrees);
-            let outward = (u * (28.0 + s) - n * v).normalize();
-            Point2::from(u * (28.0 + s) - outward * 8.0)
-        })
-        .collect();
-    Arc::new(Spline::new(&points, Ends::Periodic).expect("points differ"))
+    crate::plan::tests::paper_cam(false).flank(Flank::Inner)
 }
 
 fn job(profile: CurveRef, blank: f64, cutter: f64, step: f64, leave: f64, part: Side) -> Job {
