@@ -10,6 +10,7 @@ mod extremum;
 pub mod follower;
 pub mod measure;
 pub mod motion;
+pub mod parallel;
 mod quadrature;
 pub mod surface;
 mod tridiagonal;

@@ -9,7 +9,7 @@ use super::state::Ready;
 use crate::arena::Handle;
 use crate::cl::{Contour, Guard, Lead, Operation, RecordKind, Wall};
 use crate::diag::Diagnostic;
-use crate::diag::codes::planning::{CUTTER_TOO_LARGE, NO_ROOM_FOR_LEAD};
+use crate::diag::codes::planning::NO_ROOM_FOR_LEAD;
 use crate::geom::Side;
 use crate::geom::curve::{CurveRef, Reversed};
 use crate::ir::{Band, Cut, Entry, Interpolation, Origin, Profile, ProfileTarget};
@@ -17,13 +17,11 @@ use crate::ir::{Band, Cut, Entry, Interpolation, Origin, Profile, ProfileTarget}
 /// Height above the part's top down to which an approach may be at rapid, mm.
 pub(super) const APPROACH: f64 = 1.0;
 
-/// What a profile runs along: cutter-centre curves, directed alike.
+/// What a profile runs along.
 pub(super) struct Track {
-    /// In exact contact with the part.
-    pub contact: CurveRef,
-    /// With the stock to leave: what is cut.
+    /// Cutter-centre curve, the stock to leave included.
     pub cut: CurveRef,
-    /// The part's side of both.
+    /// The part's side of it.
     pub part: Side,
     /// Walls that the cutter must not touch, the contact curve's own included.
     pub walls: Vec<Wall>,
@@ -35,8 +33,7 @@ impl Track {
         if self.part == part {
             return self;
         }
-        let turn = |c: CurveRef| -> CurveRef { Arc::new(Reversed::new(c)) };
-        Track { contact: turn(self.contact), cut: turn(self.cut), part, walls: self.walls }
+        Track { cut: Arc::new(Reversed::new(self.cut)), part, walls: self.walls }
     }
 }
 
@@ -77,7 +74,7 @@ impl Planner<'_> {
         match &profile.target {
             ProfileTarget::Cam(cam, flank) => self.cam_track(*cam, *flank, (radius, profile.leave), origin),
             ProfileTarget::Curve { edges, cutter } => {
-                self.curve_track(edges, *cutter, (radius, profile.leave), profile.tool, origin)
+                self.curve_track(edges, *cutter, (radius, profile.leave), origin)
             }
         }
     }
@@ -160,35 +157,6 @@ impl Planner<'_> {
         };
         let diagnostic = Diagnostic::new(&NO_ROOM_FOR_LEAD, self.span(origin), message);
         self.report(diagnostic, origin);
-    }
-
-    /// The cutter fits a wall when its circle rolls along the whole of it.
-    pub(super) fn check_fit(
-        &mut self,
-        wall: &CurveRef,
-        cutter_side: Side,
-        (radius, leave): (f64, f64),
-        what: &str,
-        origin: Handle<Origin>,
-    ) -> bool {
-        /// Equal up to this share of the radius is a fit: the samples' rounding.
-        const ROUNDING: f64 = 1e-7;
-        let limit = room::largest_rolling(&Samples::new(wall.as_ref()), cutter_side);
-        let Some((largest, at)) = limit.filter(|(largest, _)| *largest < (radius + leave) * (1.0 - ROUNDING))
-        else {
-            return true;
-        };
-        let message = format!(
-            "{} does not fit {what} at ({}, {}), where the hollow has a radius of {}",
-            self.cutter_words(radius, leave),
-            self.show(at.x),
-            self.show(at.y),
-            self.show(largest)
-        );
-        let diagnostic = Diagnostic::new(&CUTTER_TOO_LARGE, self.span(origin), message)
-            .help(self.cutter_help(largest, leave));
-        self.report(diagnostic, origin);
-        false
     }
 
     /// A length rounded down, so that what is printed still fits.

@@ -4,14 +4,16 @@ use std::sync::Arc;
 
 use super::Planner;
 use super::profile::Track;
+use super::room::{self, Samples};
 use crate::arena::Handle;
 use crate::cl::Wall;
 use crate::diag::Diagnostic;
 use crate::diag::codes::planning::{CUTTER_TOO_LARGE, CUTTER_WIDER_THAN_GROOVE, EDGES_DO_NOT_JOIN};
 use crate::geom::Side;
 use crate::geom::cam::CutterLimit;
-use crate::geom::curve::{Chain, ChainError, CurveRef, Reversed};
-use crate::ir::{CamEntity, CurveEntity, Flank, Origin, Tool};
+use crate::geom::curve::{Chain, ChainError, CurveRef, Joint, Reversed};
+use crate::geom::parallel::{ParallelError, parallel};
+use crate::ir::{CamEntity, CurveEntity, Flank, Origin};
 
 /// Edges join when their ends are this near, mm: a thousandth of what a machine resolves.
 const JOIN: f64 = 1e-6;
@@ -29,7 +31,6 @@ impl Planner<'_> {
         let cam_shape = &entity.cam;
         let wall = |flank| Wall { centre: cam_shape.centre(flank, radius), part: cam_shape.material(flank) };
         let track = Track {
-            contact: cam_shape.centre(flank, radius),
             cut: cam_shape.centre(flank, radius + leave),
             part: cam_shape.material(flank),
             walls: cam_shape.definition().flanks().iter().map(|f| wall(*f)).collect(),
@@ -121,16 +122,81 @@ impl Planner<'_> {
         edges: &[(Handle<CurveEntity>, bool)],
         cutter: Option<Side>,
         (radius, leave): (f64, f64),
-        tool: Handle<Tool>,
         origin: Handle<Origin>,
     ) -> Option<Track> {
         let chain = self.chain(edges, origin)?;
         let Some(side) = cutter else {
             let walls = Vec::new();
-            return Some(Track { contact: chain.clone(), cut: chain, part: Side::Right, walls });
+            return Some(Track { cut: chain, part: Side::Right, walls });
         };
-        let _ = (side, radius, leave, tool);
+        if !self.check_fit(&chain, side, (radius, leave), origin) {
+            return None;
+        }
+        let contact = self.parallel(&chain, side, radius, origin)?;
+        let cut =
+            if leave > 0.0 { self.parallel(&chain, side, radius + leave, origin)? } else { contact.clone() };
+        let part = side.opposite();
+        Some(Track { cut, part, walls: vec![Wall { centre: contact, part }] })
+    }
+
+    fn parallel(
+        &mut self,
+        chain: &CurveRef,
+        side: Side,
+        distance: f64,
+        origin: Handle<Origin>,
+    ) -> Option<CurveRef> {
+        let (at, why) = match parallel(chain, side, distance) {
+            Ok(curve) => return Some(curve),
+            Err(ParallelError::TooCurved { radius, at }) => {
+                (at, format!("where the hollow has a radius of {}", self.show(radius)))
+            }
+            Err(ParallelError::EdgeOutOfReach { at }) => {
+                (at, "where an edge is too short for it to reach".to_owned())
+            }
+        };
+        let message = format!(
+            "{} does not fit the contour at ({}, {}), {why}",
+            self.cutter_words(distance, 0.0),
+            self.show(at.x),
+            self.show(at.y)
+        );
+        let diagnostic =
+            Diagnostic::new(&CUTTER_TOO_LARGE, self.span(origin), message).help("take a smaller cutter");
+        self.report(diagnostic, origin);
         None
+    }
+
+    /// The cutter fits a smooth closed wall when its circle rolls along the whole of it; corners are for
+    /// [`parallel`].
+    fn check_fit(
+        &mut self,
+        wall: &CurveRef,
+        side: Side,
+        (radius, leave): (f64, f64),
+        origin: Handle<Origin>,
+    ) -> bool {
+        /// Equal up to this share of the radius is a fit: the samples' rounding.
+        const ROUNDING: f64 = 1e-7;
+        if Joint::all(wall.as_ref()).iter().any(|j| j.turn * side.sign() > 0.0) {
+            return true;
+        }
+        let limit = room::largest_rolling(&Samples::new(wall.as_ref()), side);
+        let Some((largest, at)) = limit.filter(|(largest, _)| *largest < (radius + leave) * (1.0 - ROUNDING))
+        else {
+            return true;
+        };
+        let message = format!(
+            "{} does not fit the contour at ({}, {}), which takes a radius of {} at most",
+            self.cutter_words(radius, leave),
+            self.show(at.x),
+            self.show(at.y),
+            self.show(largest)
+        );
+        let diagnostic = Diagnostic::new(&CUTTER_TOO_LARGE, self.span(origin), message)
+            .help(self.cutter_help(largest, leave));
+        self.report(diagnostic, origin);
+        false
     }
 
     fn chain(&mut self, edges: &[(Handle<CurveEntity>, bool)], origin: Handle<Origin>) -> Option<CurveRef> {
