@@ -83,7 +83,8 @@ fn json_messages_are_one_object_a_line() {
         let object: serde_json::Value = serde_json::from_str(line).expect("an object");
         assert_eq!(object["source"], "partwright");
     }
-    let first: serde_json::Value = serde_json::from_str(text.lines().next().expect("a line")).expect("an object");
+    let first: serde_json::Value =
+        serde_json::from_str(text.lines().next().expect("a line")).expect("an object");
     assert_eq!(first["range"]["start"]["line"], 1);
     assert_eq!(first["range"]["start"]["character"], 11);
     assert_eq!(first["file"], "a.apt");

@@ -94,7 +94,8 @@ fn blocks(section: &str) -> Vec<Block> {
 fn start(info: &str) -> Block {
     let mut words = info.split(',');
     let language = words.next().unwrap_or("").trim().to_owned();
-    let extras = words.filter_map(|w| w.split_once('=')).map(|(k, v)| (k.trim().to_owned(), v.trim().to_owned()));
+    let extras =
+        words.filter_map(|w| w.split_once('=')).map(|(k, v)| (k.trim().to_owned(), v.trim().to_owned()));
     Block { language, extras: extras.collect(), text: String::new() }
 }
 

@@ -193,7 +193,8 @@ impl Planned {
 fn text_of(stage: Stage, build: &Build, output: Option<&Output>) -> Option<String> {
     match stage {
         Stage::Ast => build.ast.as_ref().map(|ast| syntax::print::print(ast, &build.sources)),
-        Stage::Ir | Stage::Cl => None,
+        Stage::Ir => None,
+        Stage::Cl => build.cl.as_ref().map(crate::cl::print::print),
         Stage::Target => output?.target.as_ref().map(crate::target::print::print),
         Stage::Nc => output?.proven.as_ref().map(|p| p.text().to_owned()),
     }

@@ -8,12 +8,12 @@ use std::sync::{Mutex, PoisonError};
 use crate::cl::Cl;
 use crate::diag::codes::command as codes;
 use crate::diag::{Diagnostic, Severity, Sink};
-use crate::ir;
 use crate::source::{FileError, FileId, FileProvider, SourceMap};
 use crate::syntax::{self, ast};
 use crate::target::TargetProgram;
 use crate::units::LengthUnit;
 use crate::verify::Proven;
+use crate::{ir, plan};
 
 mod targets;
 
@@ -117,9 +117,11 @@ fn stages(build: &mut Build, file: FileId, files: &dyn FileProvider, options: &O
     back(build, files, options, sink);
 }
 
-/// From cutter location data on.
+/// From the evaluated program on.
 fn back(build: &mut Build, files: &dyn FileProvider, options: &Options, sink: &mut Sink) {
-    let (Some(ir), Some(cl)) = (&build.ir, &build.cl) else { return };
+    let Some(ir) = &build.ir else { return };
+    build.cl = plan::plan(ir, sink);
+    let Some(cl) = &build.cl else { return };
     if options.check_only {
         return;
     }
