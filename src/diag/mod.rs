@@ -5,6 +5,7 @@
 //! so that all errors of a file come out of one run. A code is a constant of
 //! [`codes`]; its page for `partwright explain` lies in `docs/diagnostics/`.
 
+pub mod cam;
 pub mod codes;
 mod excerpt;
 pub mod render;
