@@ -12,6 +12,8 @@ pub const OPERATORS: usize = 400;
 pub const STATEMENT_BYTES: usize = 256 * 1024;
 /// Diagnostics after which the rest of a file is not read any more.
 pub const ERRORS: usize = 200;
+/// Statements that are parsed in parallel at a time; fewer are parsed one after the other.
+pub const BATCH: usize = 4096;
 /// Stray characters reported in one statement.
 pub const STRAY_PER_STATEMENT: usize = 5;
 /// Rule calls of the grammar for one statement; a statement of full length takes about a tenth of it.

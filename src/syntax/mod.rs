@@ -5,6 +5,7 @@
 //! in the text, memory bounded by the limits in `limits.rs`.
 
 use pest::Parser;
+use rayon::prelude::*;
 
 pub mod ast;
 mod failure;
@@ -13,6 +14,8 @@ mod limits;
 pub mod print;
 mod slips;
 mod split;
+#[cfg(test)]
+mod tests;
 mod tree;
 mod words;
 
@@ -30,14 +33,32 @@ pub fn parse(file: FileId, text: &str, sink: &mut Sink) -> Program {
     let split = split::split(file, text, &mut mistakes);
     let mut mistakes = mistakes.into_items();
     let mut statements = Vec::with_capacity(split.statements.len());
-    for piece in &split.statements {
+    // Batches bound the work that is lost when a file is refused after too many mistakes.
+    for batch in split.statements.chunks(limits::BATCH) {
         if mistakes.len() >= limits::ERRORS {
             break;
         }
-        statements.push(statement(file, text, piece, &mut mistakes));
+        for (parsed, found) in parse_batch(file, text, batch) {
+            statements.push(parsed);
+            mistakes.extend(found);
+        }
     }
     report(mistakes, sink);
     Program { file, statements, comments: split.comments }
+}
+
+/// Statements with their mistakes, in order; in parallel when there are enough of them.
+fn parse_batch(file: FileId, text: &str, batch: &[Logical]) -> Vec<(Statement, Vec<Diagnostic>)> {
+    let one = |piece: &Logical| {
+        let mut mistakes = Vec::new();
+        let parsed = statement(file, text, piece, &mut mistakes);
+        (parsed, mistakes)
+    };
+    if batch.len() < limits::BATCH {
+        batch.iter().map(one).collect()
+    } else {
+        batch.par_iter().map(one).collect()
+    }
 }
 
 fn report(mut mistakes: Vec<Diagnostic>, sink: &mut Sink) {
