@@ -262,7 +262,8 @@ fn refuse_clashes(planned: &[Planned], compiled: &[Compiled], args: &BuildArgs) 
     targets.retain(|p| !output::is_stdout(p) && !is_device(p));
     let mut names: Vec<PathBuf> = targets.iter().map(|p| real(p)).collect();
     names.sort();
-    if let Some([twice, _]) = names.array_windows::<2>().find(|[a, b]| a == b) {
+    let twice = names.iter().zip(names.iter().skip(1)).find(|(a, b)| a == b);
+    if let Some((twice, _)) = twice {
         let shown = targets.iter().find(|p| real(p) == *twice).copied().unwrap_or(twice);
         return Err(clash(shown, "would be written twice"));
     }
