@@ -112,7 +112,7 @@ pub(super) enum Group {
     Path,
     /// Spindle speed mode.
     Speed,
-    /// Anything else that stays in force.
+    /// Groups of one code each, which contradict nothing.
     Other,
 }
 

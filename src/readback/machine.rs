@@ -1,7 +1,7 @@
 //! Executing blocks: modal state, checks that do not depend on the motion, order of execution.
 
 use super::block::{Block, bit};
-use super::codes::{G, M, Mode, Plane};
+use super::codes::{G, Group, M, Mode, Plane};
 use super::rules::{Frame, Rules};
 use super::{EventKind, Fault, FeedMode, Follow, MachineSetup, TraceEvent};
 
@@ -272,7 +272,7 @@ impl<'a> Machine<'a> {
     fn gather_g<S: Follow>(&self, code: u16, g: G, plan: &mut Plan, out: &mut Out<'_, S>) -> bool {
         let group = g.group();
         let mask = 1u32 << (group as u32);
-        if plan.groups & mask != 0 {
+        if plan.groups & mask != 0 && group != Group::Other {
             out.fault(format!(
                 "two codes of one modal group ({}) in a block, the second is G{}",
                 group.name(),
@@ -527,5 +527,5 @@ fn gather_m<S: Follow>(code: u16, m: M, plan: &mut Plan, out: &mut Out<'_, S>) -
 
 /// A code in tenths as it is written: 52 is `5.2`, 10 is `1`.
 pub(super) fn tenths(code: u16) -> String {
-    if code % 10 == 0 { format!("{}", code / 10) } else { format!("{}.{}", code / 10, code % 10) }
+    if code.is_multiple_of(10) { format!("{}", code / 10) } else { format!("{}.{}", code / 10, code % 10) }
 }

@@ -121,7 +121,7 @@ impl Machine<'_> {
         let words = [self.length(block, b'X'), self.length(block, b'Y'), self.length(block, b'Z'), rotary];
         for (axis, word) in words.into_iter().enumerate() {
             let (Some(value), Some(slot)) = (word, target.to.get_mut(axis)) else { continue };
-            if incremental && !self.state.known[axis] {
+            if incremental && value != 0.0 && !self.state.known[axis] {
                 out.fault("an incremental move from a position that is not known");
             }
             *slot = if incremental { *slot + value } else { value };
@@ -147,9 +147,9 @@ impl Machine<'_> {
     /// Where the move starts; an axis that is not known yet is taken to stand where it goes.
     pub(super) fn departure(&self, target: &Target) -> [f64; 4] {
         let mut from = self.state.position;
-        for axis in 0..4 {
+        for (axis, place) in from.iter_mut().enumerate() {
             if target.moved[axis] && !self.state.known[axis] {
-                from[axis] = target.to[axis];
+                *place = target.to[axis];
             }
         }
         from

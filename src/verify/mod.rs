@@ -32,6 +32,8 @@ mod measure;
 mod path;
 mod pieces;
 mod plan;
+#[cfg(test)]
+mod program_tests;
 mod points;
 mod rail;
 mod spline;
@@ -131,7 +133,7 @@ pub fn prove(
     let contexts = plan::contexts(target);
     let orders = Orders::new(cl);
     let case = Case { cl, target, contexts: &contexts, orders: &orders, needs, moves: &moves };
-    let (findings, operations) = check(&case, &trace, &lines);
+    let (findings, operations) = check(&case, &trace, &lines, &emitted.lines);
     let certificate = issue::certificate(&case, &trace, &emitted, control, operations);
     let mut reporter = Reporter::new(cl, target, sink);
     for finding in findings {
@@ -155,7 +157,12 @@ fn placed<'t>(trace: &'t Trace, lines: &Lines) -> Vec<Placed<'t>> {
 }
 
 /// All checks; findings in the order of the text.
-fn check(case: &Case<'_>, trace: &Trace, lines: &Lines) -> (Vec<Finding>, Vec<pieces::Proof>) {
+fn check(
+    case: &Case<'_>,
+    trace: &Trace,
+    lines: &Lines,
+    block_lines: &[(u32, u32)],
+) -> (Vec<Finding>, Vec<pieces::Proof>) {
     let rails = guard::Rails::new(case);
     let (mut findings, proofs) = pieces::all(case, &rails);
     findings.extend(finding::of_control(trace, lines));
@@ -171,7 +178,7 @@ fn check(case: &Case<'_>, trace: &Trace, lines: &Lines) -> (Vec<Finding>, Vec<pi
         })
         .collect();
     findings.extend(others);
-    findings.extend(points::block_ends(case));
+    findings.extend(points::block_ends(case, block_lines));
     findings.extend(points::cl_points(case));
     findings.sort_by_key(Finding::line);
     (findings, proofs)

@@ -74,6 +74,7 @@ impl Lines {
 pub(super) struct Orders {
     contours: Vec<(Option<usize>, CurveRef, Asked)>,
     feeds: BTreeMap<Option<usize>, Vec<f64>>,
+    plunges: BTreeMap<Option<usize>, Vec<Option<f64>>>,
 }
 
 impl Orders {
@@ -90,6 +91,7 @@ impl Orders {
                 RecordKind::Contour(contour) => {
                     orders.contours.push((operation, contour.curve.clone(), asked));
                     orders.feeds.entry(operation).or_default().extend(contour.plunge_feed);
+                    orders.plunges.entry(operation).or_default().push(contour.plunge_feed);
                 }
                 _ => {}
             }
@@ -108,6 +110,13 @@ impl Orders {
             .iter()
             .find(|(op, c, _)| *op == Some(operation) && Arc::ptr_eq(c, curve))
             .map(|(.., asked)| *asked)
+    }
+
+    /// The feed for plunging, where all contours of the operation have the same.
+    pub(super) fn plunge(&self, operation: Option<usize>) -> Option<f64> {
+        let feeds = self.plunges.get(&operation)?;
+        let first = *feeds.first()?;
+        first.filter(|_| feeds.iter().all(|f| *f == first))
     }
 
     /// Feeds that were in force at some time in the operation.

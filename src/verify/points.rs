@@ -68,22 +68,53 @@ fn extent(path: &TracePath) -> (Range, Range) {
     }
 }
 
-/// Every motion block's last move ends where the lowered program says.
-pub(super) fn block_ends(case: &Case<'_>) -> Vec<Finding> {
-    let mut findings = Vec::new();
+/// Every motion block that was printed moves, and its last move ends where the lowered program says.
+pub(super) fn block_ends(case: &Case<'_>, lines: &[(u32, u32)]) -> Vec<Finding> {
+    let mut findings = still(case, lines);
+    let turns = turns(case);
     for (i, placed) in case.moves.iter().enumerate() {
         let last_of_block = case.moves.get(i + 1).is_none_or(|next| next.block != placed.block);
-        if !last_of_block {
-            continue;
-        }
         let text = match placed.block.and_then(|b| case.target.blocks.get(b)).map(|b| &b.kind) {
-            Some(BlockKind::Motion(motion)) => wrong_end(case, motion, placed),
-            Some(BlockKind::Insert(_) | BlockKind::Begin | BlockKind::End | BlockKind::ToolChange(_)) => None,
+            Some(BlockKind::Motion(motion)) if last_of_block => {
+                let turn = placed.block.and_then(|b| turns.get(b)).copied().flatten();
+                wrong_end(case, motion, placed).or_else(|| wrong_turn(turn, placed))
+            }
+            Some(BlockKind::Motion(_)) => None,
+            Some(BlockKind::Insert(_)) => None,
+            Some(BlockKind::Begin | BlockKind::End | BlockKind::ToolChange(_)) => dives(placed),
             _ => Some(Text::default().words("a motion that the lowered program does not have")),
         };
         findings.extend(text.map(|t| Finding::new(&codes::NOT_AS_LOWERED, placed.line, placed.block, t)));
     }
     findings
+}
+
+/// What a post adds at the start, the end and a tool change may retract, not cut and not go down.
+fn dives(placed: &Placed<'_>) -> Option<Text> {
+    let (from, to) = placed.cut.z;
+    let down = placed.cut.known[2] && to < from - ACCURACY;
+    (down || !placed.cut.rapid).then(|| {
+        let text = Text::default().words("a motion of the post's own goes from Z ").length(from).words(" to ").length(to);
+        text.words(if placed.cut.rapid { "" } else { " at feed" })
+    })
+}
+
+/// Motion blocks whose lines move nothing.
+fn still(case: &Case<'_>, lines: &[(u32, u32)]) -> Vec<Finding> {
+    let mut moves = vec![false; case.target.blocks.len()];
+    for placed in case.moves {
+        if let Some(slot) = placed.block.and_then(|b| moves.get_mut(b)) {
+            *slot = true;
+        }
+    }
+    let blocks = case.target.blocks.iter().zip(lines).zip(moves).enumerate();
+    blocks
+        .filter(|(_, ((block, (from, to)), moves))| matches!(block.kind, BlockKind::Motion(_)) && to > from && !moves)
+        .map(|(i, ((_, (from, _)), _))| {
+            let text = Text::default().words("a motion block that moves nothing");
+            Finding::new(&codes::NOT_AS_LOWERED, *from, Some(i), text)
+        })
+        .collect()
 }
 
 fn wrong_end(case: &Case<'_>, motion: &Motion, placed: &Placed<'_>) -> Option<Text> {
@@ -104,8 +135,16 @@ fn wrong_end(case: &Case<'_>, motion: &Motion, placed: &Placed<'_>) -> Option<Te
             "a rapid in place of a cut"
         }));
     }
-    let off = (got - wanted).norm();
-    (!(off <= ACCURACY) && placed.cut.known.iter().all(|k| *k)).then(|| {
+    if let Some(text) = wrong_arc(case, motion, placed) {
+        return Some(text);
+    }
+    let moved = if let Motion::Rapid { axes, .. } = motion { *axes } else { 0 };
+    let meant = |axis: usize| placed.cut.known[axis] || moved & (1 << axis) != 0;
+    // A table that is not known turns X and Y of the part.
+    let plane = meant(0) && meant(1);
+    let off = got - wanted;
+    let wrong = plane && !(off.xy().norm() <= ACCURACY) || meant(2) && !(off.z.abs() <= ACCURACY);
+    wrong.then(|| {
         Text::default()
             .words("the block ends at ")
             .point(got.x, got.y)
@@ -116,6 +155,65 @@ fn wrong_end(case: &Case<'_>, motion: &Motion, placed: &Placed<'_>) -> Option<Te
             .words(", Z ")
             .length(wanted.z)
     })
+}
+
+/// How far every motion block turns the table, radians in the part; `None` without a table, or where it is not known
+/// from where.
+#[allow(clippy::cast_precision_loss)]
+fn turns(case: &Case<'_>) -> Vec<Option<f64>> {
+    let capabilities = &case.target.capabilities;
+    let Some(rotary) = capabilities.rotary else { return Vec::new() };
+    let step = capabilities.grid.rotary_step() * DEG * if rotary.reversed { -1.0 } else { 1.0 };
+    let mut last: Option<i64> = None;
+    let to = |block: &crate::target::Block| match &block.kind {
+        BlockKind::Motion(Motion::Rapid { to, axes }) => Some((to.r, axes & 8 != 0)),
+        BlockKind::Motion(Motion::Line { to, .. } | Motion::Arc { to, .. }) => Some((to.r, true)),
+        _ => None,
+    };
+    let mut turn = |block| {
+        let (r, moves) = to(block)?;
+        let before = last;
+        last = if moves { Some(r) } else { last };
+        before.map(|b| if moves { (r - b) as f64 * step } else { 0.0 })
+    };
+    case.target.blocks.iter().map(&mut turn).collect()
+}
+
+fn wrong_turn(wanted: Option<f64>, placed: &Placed<'_>) -> Option<Text> {
+    let wanted = wanted?;
+    let got = if let TracePath::Spiral { angle, .. } = placed.cut.path { angle.1 - angle.0 } else { 0.0 };
+    ((got - wanted).abs() > 1e-9).then(|| {
+        Text::default().words(format!("the table turns by {:.4} deg in place of {:.4} deg", got / DEG, wanted / DEG))
+    })
+}
+
+/// An arc with another centre or sense than lowered, or none.
+#[allow(clippy::cast_precision_loss)]
+fn wrong_arc(case: &Case<'_>, motion: &Motion, placed: &Placed<'_>) -> Option<Text> {
+    let drawn = match &placed.cut.path {
+        TracePath::Arc { from, centre, sweep, .. } => Some((centre - from, *sweep < 0.0)),
+        _ => None,
+    };
+    let Motion::Arc { centre, clockwise, .. } = motion else {
+        return drawn.map(|_| Text::default().words("an arc in place of a line or curve"));
+    };
+    let Some((offset, sense)) = drawn else {
+        return Some(Text::default().words("no arc where the lowered program has one"));
+    };
+    if sense != *clockwise {
+        let name = |clockwise: bool| if clockwise { "clockwise" } else { "counter-clockwise" };
+        let text = format!("an arc that runs {} in place of {}", name(sense), name(*clockwise));
+        return Some(Text::default().words(text));
+    }
+    let step = case.target.capabilities.grid.centre_step();
+    let wanted = crate::geom::Vec2::new(centre[0] as f64, centre[1] as f64) * step;
+    // With a table the offsets may be turned; their length stays.
+    let off = if case.target.capabilities.rotary.is_some() {
+        (offset.norm() - wanted.norm()).abs()
+    } else {
+        (offset - wanted).norm()
+    };
+    (!(off <= ACCURACY)).then(|| Text::default().words("an arc whose centre is off by ").length(off))
 }
 
 #[allow(clippy::cast_precision_loss)]

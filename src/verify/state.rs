@@ -3,6 +3,7 @@
 use super::finding::{Finding, Text};
 use super::{Case, Placed};
 use crate::diag::codes::verification as codes;
+use crate::target::{BlockKind, FeedWord, Motion, power_of_ten};
 
 /// How far a feed along the path may differ from the one commanded, as a share of it. Covers the rounding of F words,
 /// inverse time ones included.
@@ -80,18 +81,54 @@ fn feed(case: &Case<'_>, placed: &Placed<'_>) -> Option<Text> {
     if !(got > 0.0 && got.is_finite()) {
         return Some(text.words("a cut without a feed"));
     }
+    if let Some(word) = lowered(case, placed).filter(|w| (got - w).abs() > 0.5 * feed_step(case) + 1e-6 * w) {
+        return Some(text.words("a feed of ").feed(got).words(" where the lowered program has ").feed(word));
+    }
     let near = |wanted: f64| (got - wanted).abs() <= FEED_TOLERANCE * wanted + 0.5 * feed_step(case);
     let said = |wanted: f64| text.clone().words("a feed of ").feed(got).words(" in place of ").feed(wanted);
     if let Some(asked) = asked(case, placed) {
         return (!near(asked.feed)).then(|| said(asked.feed));
     }
-    let feeds = case.orders.feeds(case.context(placed.block).operation);
+    let operation = case.context(placed.block).operation;
+    if let Some(plunge) = case.orders.plunge(operation).filter(|_| plunges(placed)) {
+        return (!near(plunge)).then(|| said(plunge));
+    }
+    let feeds = case.orders.feeds(operation);
     let nearest = feeds.iter().copied().min_by(|a, b| (a - got).abs().total_cmp(&(b - got).abs()))?;
     (!near(nearest)).then(|| said(nearest))
+}
+
+/// Straight down.
+fn plunges(placed: &Placed<'_>) -> bool {
+    let (from, to) = (placed.cut.start(), placed.cut.end());
+    from.xy() == to.xy() && to.z < from.z
+}
+
+/// Feed of the lowered block, mm/min along the path; nothing for blocks that turn a table, whose feed depends on more.
+#[allow(clippy::cast_precision_loss)]
+fn lowered(case: &Case<'_>, placed: &Placed<'_>) -> Option<f64> {
+    if matches!(placed.cut.path, crate::readback::TracePath::Spiral { .. }) {
+        return None;
+    }
+    let BlockKind::Motion(motion) = &case.target.blocks.get(placed.block?)?.kind else { return None };
+    let feed = match motion {
+        Motion::Rapid { .. } => return None,
+        Motion::Line { feed, .. } | Motion::Arc { feed, .. } | Motion::Nurbs { feed, .. } => feed,
+    };
+    let grid = &case.target.capabilities.grid;
+    let steps = |decimals: u8, value: i64| value as f64 / power_of_ten(decimals);
+    match feed {
+        FeedWord::PerMinute(f) => Some(steps(grid.feed_decimals, *f) * grid.unit.in_mm() / grid.feed_scale),
+        FeedWord::PerRevolution(f) => {
+            let per_turn = steps(grid.feed_per_revolution_decimals, *f) * grid.unit.in_mm();
+            Some(per_turn * placed.cut.spindle.abs())
+        }
+        FeedWord::InverseTime(_) => None,
+    }
 }
 
 /// One step of the F word, mm/min.
 fn feed_step(case: &Case<'_>) -> f64 {
     let grid = &case.target.capabilities.grid;
-    grid.unit.in_mm() / crate::target::power_of_ten(grid.feed_decimals) / grid.feed_scale.max(1e-9)
+    grid.unit.in_mm() / power_of_ten(grid.feed_decimals) / grid.feed_scale.max(1e-9)
 }
