@@ -32,9 +32,9 @@ mod measure;
 mod path;
 mod pieces;
 mod plan;
+mod points;
 #[cfg(test)]
 mod program_tests;
-mod points;
 mod rail;
 mod spline;
 mod state;

@@ -94,7 +94,11 @@ fn dives(placed: &Placed<'_>) -> Option<Text> {
     let (from, to) = placed.cut.z;
     let down = placed.cut.known[2] && to < from - ACCURACY;
     (down || !placed.cut.rapid).then(|| {
-        let text = Text::default().words("a motion of the post's own goes from Z ").length(from).words(" to ").length(to);
+        let text = Text::default()
+            .words("a motion of the post's own goes from Z ")
+            .length(from)
+            .words(" to ")
+            .length(to);
         text.words(if placed.cut.rapid { "" } else { " at feed" })
     })
 }
@@ -109,7 +113,9 @@ fn still(case: &Case<'_>, lines: &[(u32, u32)]) -> Vec<Finding> {
     }
     let blocks = case.target.blocks.iter().zip(lines).zip(moves).enumerate();
     blocks
-        .filter(|(_, ((block, (from, to)), moves))| matches!(block.kind, BlockKind::Motion(_)) && to > from && !moves)
+        .filter(|(_, ((block, (from, to)), moves))| {
+            matches!(block.kind, BlockKind::Motion(_)) && to > from && !moves
+        })
         .map(|(i, ((_, (from, _)), _))| {
             let text = Text::default().words("a motion block that moves nothing");
             Finding::new(&codes::NOT_AS_LOWERED, *from, Some(i), text)
@@ -183,7 +189,11 @@ fn wrong_turn(wanted: Option<f64>, placed: &Placed<'_>) -> Option<Text> {
     let wanted = wanted?;
     let got = if let TracePath::Spiral { angle, .. } = placed.cut.path { angle.1 - angle.0 } else { 0.0 };
     ((got - wanted).abs() > 1e-9).then(|| {
-        Text::default().words(format!("the table turns by {:.4} deg in place of {:.4} deg", got / DEG, wanted / DEG))
+        Text::default().words(format!(
+            "the table turns by {:.4} deg in place of {:.4} deg",
+            got / DEG,
+            wanted / DEG
+        ))
     })
 }
 

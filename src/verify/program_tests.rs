@@ -10,8 +10,8 @@ use crate::geom::{Point2, Point3, Side};
 use crate::ir::{Band, CutterKind, Feed, Interpolation, Machine, Origin, Rotary, Spindle, Tool};
 use crate::math::{TAU, sin_cos};
 use crate::post::{Dialect, load, write};
-use crate::source::{FileId, MemoryFiles, SourceMap, Span};
 use crate::readback::{self, EventKind, TraceMove, TracePath};
+use crate::source::{FileId, MemoryFiles, SourceMap, Span};
 use crate::target::{BlockKind, Motion, TargetProgram};
 
 use crate::units::LengthUnit;
@@ -225,7 +225,11 @@ fn damage_every_word(post: &str, interpolation: Interpolation) {
         for word in line.split(' ') {
             for other in damaged(word) {
                 let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
-                lines[n] = line.split(' ').map(|w| if w == word { other.clone() } else { w.to_owned() }).collect::<Vec<_>>().join(" ");
+                lines[n] = line
+                    .split(' ')
+                    .map(|w| if w == word { other.clone() } else { w.to_owned() })
+                    .collect::<Vec<_>>()
+                    .join(" ");
                 let damaged = lines.join("\n") + "\n";
                 let (proven, ..) = built.prove(&damaged);
                 tried += 1;
@@ -252,9 +256,11 @@ fn every_damaged_word_is_found() {
 
 #[test]
 fn every_missing_doubled_or_swapped_line_is_found() {
-    for (post, interpolation) in
-        [("linuxcnc", Interpolation::Linear), ("fanuc", Interpolation::RTheta), ("grbl", Interpolation::Circular)]
-    {
+    for (post, interpolation) in [
+        ("linuxcnc", Interpolation::Linear),
+        ("fanuc", Interpolation::RTheta),
+        ("grbl", Interpolation::Circular),
+    ] {
         let built = built(post, interpolation, BAND, LengthUnit::Millimetre);
         let text = &built.emitted.text;
         let lines: Vec<&str> = text.lines().collect();
@@ -310,7 +316,8 @@ fn every_vertex_bent_out_of_the_band_is_found() {
             if let Some(Motion::Line { to, .. }) = motions(target).nth(n) {
                 // 30 µm radially, three times the band.
                 #[allow(clippy::cast_precision_loss, clippy::cast_possible_truncation)]
-                let radial = |v: i64, w: i64| (v as f64 * 0.03e3 / ((v * v + w * w) as f64).sqrt()).round() as i64;
+                let radial =
+                    |v: i64, w: i64| (v as f64 * 0.03e3 / ((v * v + w * w) as f64).sqrt()).round() as i64;
                 let by = [radial(to.x, to.y), radial(to.y, to.x)];
                 to.x += by[0];
                 to.y += by[1];
