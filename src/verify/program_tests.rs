@@ -65,7 +65,14 @@ pub(super) fn cl(interpolation: Interpolation, band: Band) -> Cl {
         top: 0.0,
         bottom: -4.0,
     };
-    cl.operations.push(Operation { name: "FINISH".to_owned(), kind: "PROFIL", origin: at, band, guard, effort: None });
+    cl.operations.push(Operation {
+        name: "FINISH".to_owned(),
+        kind: "PROFIL",
+        origin: at,
+        band,
+        guard,
+        effort: None,
+    });
     let contour = Contour {
         curve,
         part: Side::Right,
