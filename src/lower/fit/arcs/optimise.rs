@@ -14,6 +14,8 @@ pub(super) struct Stop {
     pub iterations: usize,
     /// Relative gain of an iteration that is not worth another.
     pub gain: f64,
+    /// Make joints tangent-continuous after every step.
+    pub smooth: bool,
 }
 
 /// Accuracy of each linear problem, relative.
@@ -31,7 +33,9 @@ const SMALLEST_TRUST: f64 = 1e-3;
 
 /// Improves `chain`; returns it with its largest distance from the middle of the band, mm (tangent errors weighted in).
 pub(super) fn improve(mut chain: Chain, stretch: &Stretch<'_>, goal: &Goal, stop: &Stop) -> (Chain, f64) {
-    restore(&mut chain, stretch, goal);
+    if stop.smooth {
+        restore(&mut chain, stretch, goal);
+    }
     let mut worst = measure(&chain, stretch, goal);
     let mut trust = 1.0;
     let mut stalls = 0;
@@ -47,7 +51,9 @@ pub(super) fn improve(mut chain: Chain, stretch: &Stretch<'_>, goal: &Goal, stop
         let Some(solution) = problem.solve(LINEAR) else { break };
         let step: Vec<f64> = solution.x.iter().zip(&scales).map(|(x, s)| x * s).collect();
         let mut next = chain.moved(stretch, &step);
-        restore(&mut next, stretch, goal);
+        if stop.smooth {
+            restore(&mut next, stretch, goal);
+        }
         let found = measure(&next, stretch, goal);
         let (expected, gained) = (worst - solution.t, worst - found);
         if gained > 0.0 {

@@ -4,7 +4,8 @@
 //! lies almost on it; likewise a centre may slide along the perpendicular bisector of the printed chord.
 
 use super::certify::{Extremes, Printed, extremes};
-use super::chain::{Chain, Hold, Joint, Member};
+use super::chain::{Band, Chain, Goal, Hold, Joint, Member};
+use super::optimise::{Stop, improve};
 use super::stretch::{Stretch, turn};
 use crate::geom::{Point2, Vec2, left};
 use crate::lower::fit::{FitError, Grid, Primitive};
@@ -17,7 +18,14 @@ pub(super) const RADIUS_MISMATCH: f64 = 0.002;
 /// Share of the shorter arc beside it by which a joint may slide.
 const SLIDE: f64 = 0.04;
 /// Most grid steps by which a joint slides.
-const SLIDE_STEPS: i64 = 24;
+const SLIDE_STEPS: i64 = 60;
+/// Tangent errors weigh as much as half the band at this many radians when the half sweeps are adapted to the
+/// rounded joints.
+const ROUNDED_TANGENT: f64 = 0.03 * math::DEG;
+/// Minimax steps that adapt the half sweeps.
+const ADAPTATIONS: usize = 4;
+/// Share of half the band that a sliding centre may move an arc by.
+const CENTRE_SHARE: f64 = 0.02;
 /// Most grid steps by which a centre slides.
 const CENTRE_STEPS: i64 = 24;
 /// Change of an arc's half sweep that a sliding centre may cause, radians.
@@ -53,6 +61,13 @@ pub(super) struct Rounded {
     pub worst_at: Point2,
 }
 
+impl Limits {
+    /// The band by middle and half width.
+    pub fn band(&self) -> Band {
+        Band { middle: 0.5 * (self.left - self.right), half: 0.5 * (self.left + self.right) }
+    }
+}
+
 impl Rounded {
     /// Whether everything is within its limits.
     pub fn good(&self, limits: &Limits) -> bool {
@@ -83,8 +98,6 @@ pub(super) fn nearest(grid: &Grid, p: Point2) -> Result<[i64; 2], FitError> {
 struct Node {
     q: [i64; 2],
     p: Point2,
-    /// Tangent of the path there.
-    t: Vec2,
     /// Station of its foot.
     s: f64,
 }
@@ -96,17 +109,41 @@ pub(super) fn round(
     grid: &Grid,
     limits: &Limits,
 ) -> Result<Rounded, FitError> {
+    let band = limits.band();
     let nodes: Vec<Node> =
-        (0..chain.joints.len()).map(|j| node(chain, stretch, grid, j)).collect::<Result<_, _>>()?;
+        (0..chain.joints.len()).map(|j| node(chain, stretch, grid, &band, j)).collect::<Result<_, _>>()?;
+    let fixed = adapted(chain, stretch, &band, &nodes);
     let mut printed = Vec::with_capacity(chain.len());
     let mut primitives = Vec::with_capacity(chain.len());
     for i in 0..chain.len() {
         let (a, b) = (&nodes[i], &nodes[chain.end(i)]);
-        let (primitive, arc) = member(chain, grid, limits, i, a, b);
+        let (primitive, arc) = member(&fixed, grid, limits, i, a, b);
         primitives.push(primitive);
         printed.push(arc);
     }
     Ok(judge(chain, stretch, &nodes, primitives, &printed))
+}
+
+/// The chain through the nodes, its half sweeps adapted to them.
+fn adapted(chain: &Chain, stretch: &Stretch<'_>, band: &Band, nodes: &[Node]) -> Chain {
+    let mut fixed = chain.clone();
+    for (joint, node) in fixed.joints.iter_mut().zip(nodes) {
+        let frame = if joint.hold == Hold::Vertex { joint.frame } else { stretch.at(node.s) };
+        let e = (node.p - frame.p).dot(&left(frame.t));
+        *joint = Joint { s: node.s, e, hold: Hold::Vertex, frame, p: node.p };
+    }
+    for i in 0..fixed.len() {
+        if let Member::Arc(half) = fixed.members[i] {
+            // The same curvature over the rounded chord.
+            let ratio = fixed.drawn(i).length / chain.drawn(i).length.max(1e-300);
+            let sine = math::sin(half);
+            let change = sine * (ratio - 1.0) / math::cos(half).abs().max(0.2) * math::cos(half).signum();
+            fixed.members[i] = Member::Arc(half + change);
+        }
+    }
+    let goal = Goal { band: *band, tangent: ROUNDED_TANGENT };
+    let stop = Stop { target: 0.0, iterations: ADAPTATIONS, gain: 1e-2, smooth: false };
+    improve(fixed, stretch, &goal, &stop).0
 }
 
 fn judge(
@@ -135,55 +172,59 @@ fn judge(
     Rounded { start: nodes[0].q, primitives, extremes: all, kink, mismatch, worst_at }
 }
 
-/// Grid point for joint j: the one nearest to the path among those a short slide away.
-fn node(chain: &Chain, stretch: &Stretch<'_>, grid: &Grid, j: usize) -> Result<Node, FitError> {
+/// Grid point for joint j: the one that disturbs the path least among those a short slide away.
+///
+/// A slide by x turns the path by Δk x, a miss by η across it by about η (1/l + 1/l') and moves it by η.
+fn node(chain: &Chain, stretch: &Stretch<'_>, grid: &Grid, band: &Band, j: usize) -> Result<Node, FitError> {
     let joint = &chain.joints[j];
-    let before = chain.before(j);
-    let after = (j < chain.len()).then_some(j);
-    let length = |i: Option<usize>| i.map_or(f64::INFINITY, |i| chain.drawn(i).length);
-    let room = SLIDE * length(before).min(length(after));
+    let first = nearest(grid, joint.p)?;
+    let arcs = [chain.before(j), (j < chain.len()).then_some(j)]
+        .map(|i| i.map(|i| (chain.drawn(i), chain.is_exact(i))));
+    let length = arcs.iter().flatten().fold(f64::INFINITY, |m, (d, _)| m.min(d.length));
     let steps = match joint.hold {
-        Hold::Free | Hold::Circle { .. } | Hold::Point => ((room / grid.step) as i64).min(SLIDE_STEPS),
+        Hold::Free | Hold::Circle { .. } | Hold::Point => {
+            ((SLIDE * length / grid.step) as i64).min(SLIDE_STEPS)
+        }
         Hold::Station | Hold::Vertex => 0,
     };
-    let circles = [before, after].map(|i| i.map(|i| chain.drawn(i).circle()));
-    let t = after.map_or_else(
-        || before.map_or(joint.frame.t, |i| chain.drawn(i).tangents().1),
-        |i| chain.drawn(i).tangents().0,
-    );
-    let miss = |p: Point2| {
-        circles.iter().flatten().fold(0.0_f64, |m, c| m.max(c.deviation(p, left(t)).abs()))
-            + 1e-3 * (p - joint.p).norm()
+    let jump = match arcs {
+        [Some((a, _)), Some((b, _))] => (a.curvature() - b.curvature()).abs(),
+        _ => 0.0,
     };
-    let mut best = (f64::INFINITY, nearest(grid, joint.p)?);
-    for i in -steps..=steps {
-        // One candidate per step along the coordinate that changes fastest, the other rounded.
-        let along = t * (i as f64 * grid.step / t.x.abs().max(t.y.abs()));
-        let bend = left(t) * (0.5 * joint.frame.k * along.norm_squared());
-        let q = nearest(grid, joint.p + along + bend)?;
-        let found = miss(point(grid, q));
-        if found < best.0 {
-            best = (found, q);
+    let stiffness: f64 = arcs.iter().flatten().map(|(d, _)| 1.0 / d.length).sum();
+    let t = match arcs {
+        [_, Some((d, _))] => d.tangents().0,
+        [Some((d, _)), None] => d.tangents().1,
+        [None, None] => joint.frame.t,
+    };
+    // Arcs that are kept are missed by as little as possible.
+    let exact = if arcs.iter().flatten().any(|(_, exact)| *exact) { 10.0 } else { 1.0 };
+    let cost = |p: Point2| {
+        let x = (p - joint.p).dot(&t);
+        let miss =
+            arcs.iter().flatten().fold(0.0_f64, |m, (d, _)| m.max(d.circle().deviation(p, left(t)).abs()));
+        (jump * x.abs() + stiffness * miss) / ROUNDED_TANGENT
+            + exact * miss / (0.2 * band.half)
+            + 1e-6 * x.abs()
+    };
+    let mut best = (cost(point(grid, first)), first);
+    for i in 0..=steps {
+        if jump * i as f64 * grid.step > best.0 * ROUNDED_TANGENT {
+            break;
+        }
+        for sign in [-1.0, 1.0] {
+            // One candidate per step along the coordinate that changes fastest, the other rounded.
+            let along = t * (sign * i as f64 * grid.step / t.x.abs().max(t.y.abs()));
+            let bend = left(t) * (0.5 * joint.frame.k * along.norm_squared());
+            let q = nearest(grid, joint.p + along + bend)?;
+            let found = cost(point(grid, q));
+            if found < best.0 {
+                best = (found, q);
+            }
         }
     }
-    Ok(placed(chain, stretch, grid, j, best.1))
-}
-
-/// The node at grid point `q` for joint j: its foot and the path's tangent there.
-fn placed(chain: &Chain, stretch: &Stretch<'_>, grid: &Grid, j: usize, q: [i64; 2]) -> Node {
-    let joint = &chain.joints[j];
-    let p = point(grid, q);
-    let s = foot(stretch, joint, p);
-    let ahead = (p - joint.p).dot(&joint.frame.t);
-    let i = if ahead >= 0.0 && j < chain.len() || chain.before(j).is_none() {
-        j
-    } else {
-        chain.before(j).unwrap_or(j)
-    };
-    let d = chain.drawn(i);
-    let base = if i == j { d.tangents().0 } else { d.tangents().1 };
-    let (sin, cos) = math::sin_cos(d.curvature() * ahead);
-    Node { q, p, t: base * cos + left(base) * sin, s }
+    let p = point(grid, best.1);
+    Ok(Node { q: best.1, p, s: foot(stretch, joint, p) })
 }
 
 /// Station of the foot of `p`, near that of the joint.
@@ -214,22 +255,15 @@ fn member(chain: &Chain, grid: &Grid, limits: &Limits, i: usize, a: &Node, b: &N
             let offset = offset_words(grid, a.p, centre);
             arc(offset, centre_point(grid, a.p, offset), ccw)
         }
-        Member::Arc(whole) => {
-            let half = 0.5 * turn_near(a.t, b.t, 2.0 * whole);
+        Member::Arc(half) => {
             let length = (b.p - a.p).norm();
             if 2.0 * math::sin(half).abs() * limits.radius < length {
                 return line;
             }
-            let (offset, centre) = slide_centre(grid, a, b, half, length);
+            let (offset, centre) = slide_centre(grid, &limits.band(), a, b, half, length);
             arc(offset, centre, half > 0.0)
         }
     }
-}
-
-/// Angle from `a` to `b` in the turn nearest to `near`.
-fn turn_near(a: Vec2, b: Vec2, near: f64) -> f64 {
-    let angle = turn(a, b);
-    angle + math::TAU * ((near - angle) / math::TAU).round()
 }
 
 fn offset_words(grid: &Grid, from: Point2, centre: Point2) -> [i64; 2] {
@@ -242,13 +276,14 @@ fn centre_point(grid: &Grid, from: Point2, offset: [i64; 2]) -> Point2 {
 }
 
 /// Centre words near the perpendicular bisector, with the least difference of radii a short slide away.
-fn slide_centre(grid: &Grid, a: &Node, b: &Node, half: f64, length: f64) -> ([i64; 2], Point2) {
+fn slide_centre(grid: &Grid, band: &Band, a: &Node, b: &Node, half: f64, length: f64) -> ([i64; 2], Point2) {
     let chord = (b.p - a.p) / length;
     let axis = left(chord);
     let (sin, cos) = math::sin_cos(half);
     let ideal = a.p + (b.p - a.p) * 0.5 + axis * (0.5 * length * cos / sin);
     // d(half) = 2 sin² half / length · d(centre)
-    let reach = CENTRE_TILT * length / (2.0 * sin * sin);
+    let tilt = CENTRE_TILT.min(CENTRE_SHARE * band.half * 4.0 / length);
+    let reach = tilt * length / (2.0 * sin * sin);
     let steps = ((reach / grid.centre_step) as i64).min(CENTRE_STEPS);
     let cost = |c: Point2| {
         let radii = ((a.p - c).norm() - (b.p - c).norm()).abs();

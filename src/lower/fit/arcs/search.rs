@@ -59,7 +59,7 @@ pub(super) fn fewest(stretch: &Stretch<'_>, wish: &Wish) -> Option<(Chain, f64)>
         }
     }
     let (chain, _) = best?;
-    let stop = Stop { target: 0.0, iterations: POLISH_ITERATIONS, gain: 2e-3 };
+    let stop = Stop { target: 0.0, iterations: POLISH_ITERATIONS, gain: 2e-3, smooth: true };
     let (chain, worst) = improve(chain, stretch, goal, &stop);
     Some(straightened(chain, worst, stretch, wish, &stop))
 }
@@ -115,7 +115,7 @@ fn grow(
     limit: f64,
     most: usize,
 ) -> Option<(Chain, f64)> {
-    let stop = Stop { target: limit, iterations: SEARCH_ITERATIONS, gain: 5e-3 };
+    let stop = Stop { target: limit, iterations: SEARCH_ITERATIONS, gain: 5e-3, smooth: true };
     loop {
         let (next, worst) = improve(chain, stretch, goal, &stop);
         if worst <= limit {
@@ -130,7 +130,7 @@ fn grow(
 
 /// Takes arcs away where there is slack, as long as the band can be kept.
 fn shrink(mut chain: Chain, mut worst: f64, stretch: &Stretch<'_>, goal: &Goal, limit: f64) -> (Chain, f64) {
-    let stop = Stop { target: limit, iterations: SEARCH_ITERATIONS, gain: 5e-3 };
+    let stop = Stop { target: limit, iterations: SEARCH_ITERATIONS, gain: 5e-3, smooth: true };
     let floor = least(stretch);
     loop {
         if chain.len() <= floor.max(2) {
