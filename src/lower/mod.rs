@@ -21,6 +21,8 @@ mod lead;
 mod path;
 pub mod place;
 mod rotary;
+#[cfg(test)]
+mod tests;
 mod tools;
 
 use crate::cl::Cl;
