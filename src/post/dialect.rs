@@ -352,6 +352,7 @@ pub struct Stops {
 pub struct PathControl {
     pub exact: String,
     pub tolerance: String,
+    pub after: String,
     pub share: f64,
 }
 

@@ -363,6 +363,7 @@ impl<'a> Events<'a> {
             Some(steps) => {
                 self.writer.text(spec.path_control.tolerance.as_bytes());
                 self.writer.number(&format, steps);
+                self.writer.text(spec.path_control.after.as_bytes());
             }
             None => self.writer.text(spec.path_control.exact.as_bytes()),
         }

@@ -260,6 +260,7 @@ const COMMENTS: &[Key] = &[
 const PATH_CONTROL: &[Key] = &[
     key("exact", Shape::Text, "exact path; empty: nothing to say"),
     key("tolerance", Shape::Text, "before the path tolerance; empty: the control has none"),
+    key("after", Shape::Text, "after the path tolerance"),
     key(
         "share",
         Shape::Number(0.0, 0.9),

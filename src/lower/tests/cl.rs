@@ -58,6 +58,7 @@ impl Draft {
             kind: "PROFIL",
             origin: self.origin,
             band: contour.band,
+            effort: None,
             guard: Guard { walls: vec![wall], blank_radius: None, top: 0.0, bottom: -5.0 },
         });
         let index = u32::try_from(self.cl.operations.len()).unwrap() - 1;

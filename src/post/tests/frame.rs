@@ -54,14 +54,14 @@ fn dwells_are_in_the_units_of_the_control() {
 #[test]
 fn the_control_gets_no_more_of_the_tolerance_than_it_was_given() {
     let path = |mm| Sheet::at("linuxcnc", 0, 0).event(BlockKind::PathTolerance(mm)).rest();
-    assert_eq!(path(Some(0.00259)), ["G64 P0.0025"]);
-    assert_eq!(path(Some(0.0025)), ["G64 P0.0025"]);
+    assert_eq!(path(Some(0.00259)), ["G64 P0.0025 Q0"]);
+    assert_eq!(path(Some(0.0025)), ["G64 P0.0025 Q0"]);
     assert_eq!(path(None), [""; 0], "the header has said so");
     let back = Sheet::at("linuxcnc", 0, 0)
         .event(BlockKind::PathTolerance(Some(0.004)))
         .event(BlockKind::PathTolerance(Some(0.004)))
         .event(BlockKind::PathTolerance(None));
-    assert_eq!(back.rest(), ["G64 P0.004", "G61"]);
+    assert_eq!(back.rest(), ["G64 P0.004 Q0", "G61"]);
     assert_eq!(Sheet::at("fanuc", 0, 0).event(BlockKind::PathTolerance(Some(0.01))).rest(), [""; 0]);
 }
 
