@@ -77,6 +77,13 @@ impl Emitter<'_> {
     }
 
     fn lead(&mut self, path: &LeadPath, to: Position, feed: FeedWord) {
+        if !self.capabilities.arcs {
+            let here = self.here();
+            for [x, y] in lead::chords(path, [here.x, here.y], [to.x, to.y]) {
+                self.line(Position { x, y, ..to }, feed);
+            }
+            return;
+        }
         let scale = centre_per_linear(self.capabilities);
         self.arrive(to);
         self.push(lead::motion(path, to, feed, scale));

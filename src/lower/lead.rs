@@ -81,6 +81,23 @@ pub(super) fn motion(lead: &LeadPath, to: Position, feed: FeedWord, centre_per_l
     }
 }
 
+/// Chords of a lead's quarter arc that starts at `from`, for controls without arcs: their ends in order. They
+/// lie inside the circle and so further from the part than the arc.
+pub(super) fn chords(path: &LeadPath, from: [i64; 2], to: [i64; 2]) -> Vec<[i64; 2]> {
+    let Some((centre, clockwise)) = path.arc else { return vec![to] };
+    let hub = add(from, centre);
+    let spoke = Vec2::new(-(centre[0] as f64), -(centre[1] as f64));
+    let quarter = if clockwise { -crate::math::PI / 2.0 } else { crate::math::PI / 2.0 };
+    let point = |i: u8| {
+        let (s, c) = crate::math::sin_cos(quarter * f64::from(i) / f64::from(CHORDS));
+        add(hub, round(Vec2::new(c * spoke.x - s * spoke.y, s * spoke.x + c * spoke.y)))
+    };
+    (1..CHORDS).map(point).chain([to]).collect()
+}
+
+/// Chords of a quarter arc.
+const CHORDS: u8 = 6;
+
 fn round(v: Vec2) -> [i64; 2] {
     // Leads are at most metres long.
     [v.x.round() as i64, v.y.round() as i64]
