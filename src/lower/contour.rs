@@ -5,12 +5,13 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use super::fit::{self, Fit, FitError, Tube};
+use super::path;
 use super::place::at_origin;
 use crate::cl::{Cl, Contour, Lead, Record, RecordKind};
 use crate::diag::{Code, Diagnostic, Sink, codes};
 use crate::geom::Side;
 use crate::ir::{Band, Interpolation};
-use crate::target::Capabilities;
+use crate::target::{Capabilities, NurbsForm};
 
 /// A contour's fit.
 #[derive(Debug, Clone)]
@@ -86,7 +87,7 @@ fn tell(
             let (left, right) = fitted.fit.deviation;
             sink.push(at_origin(code, &cl.origins, record.origin, message.as_str()).note(format!(
                 "{} blocks; largest deviation {:.4} mm",
-                fitted.fit.primitives.len(),
+                path::blocks(&fitted.fit),
                 left.max(right)
             )));
         }
@@ -194,8 +195,18 @@ fn fit_as(
             fit::arcs(tube, &grid, contour.exact_dwells, start).map(|f| (f, Interpolation::Circular))
         }
         Interpolation::RTheta => fit::spirals(tube, &grid, start).map(|f| (f, Interpolation::RTheta)),
-        Interpolation::Nurbs => fit_as(tube, contour, Interpolation::Auto, capabilities),
+        Interpolation::Nurbs => {
+            fit::nurbs(tube, &grid, knots(capabilities), start).map(|f| (f, Interpolation::Nurbs))
+        }
         Interpolation::Auto => fewest(tube, contour, capabilities),
+    }
+}
+
+/// How the control takes knots.
+fn knots(capabilities: &Capabilities) -> fit::Knots {
+    match capabilities.nurbs {
+        Some(NurbsForm::G062 { knot_decimals }) => fit::Knots::Printed { decimals: u32::from(knot_decimals) },
+        Some(NurbsForm::G052) | None => fit::Knots::Uniform,
     }
 }
 
@@ -232,5 +243,5 @@ fn fewest(
 
 fn better(a: &Fit, b: &Fit) -> bool {
     let worst = |f: &Fit| f.deviation.0.max(f.deviation.1);
-    (a.primitives.len(), worst(a)) < (b.primitives.len(), worst(b))
+    (path::blocks(a), worst(a)) < (path::blocks(b), worst(b))
 }

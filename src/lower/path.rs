@@ -11,6 +11,15 @@ pub(super) fn end(primitive: &Primitive) -> Option<[i64; 2]> {
     }
 }
 
+/// NC blocks of a chain: one a primitive, one a control point of a NURBS curve.
+pub(super) fn blocks(fit: &Fit) -> usize {
+    let count = |primitive: &Primitive| match primitive {
+        Primitive::Nurbs { points, .. } => points.len(),
+        Primitive::Line { .. } | Primitive::Arc { .. } | Primitive::Spiral { .. } => 1,
+    };
+    fit.primitives.iter().map(count).sum()
+}
+
 /// Start of the chain's last primitive.
 pub(super) fn last_start(fit: &Fit) -> [i64; 2] {
     let count = fit.primitives.len();

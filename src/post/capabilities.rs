@@ -39,7 +39,7 @@ impl Dialect {
             radius_tolerance: spec.arcs.radius_tolerance,
             helix: spec.arcs.helix,
             nurbs: match spec.nurbs.form.as_str() {
-                "g06.2" => Some(NurbsForm::G062),
+                "g06.2" => Some(NurbsForm::G062 { knot_decimals: spec.nurbs.knot_decimals }),
                 "g5.2" => Some(NurbsForm::G052),
                 _ => None,
             },

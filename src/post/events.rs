@@ -375,7 +375,7 @@ impl<'a> Events<'a> {
     pub fn nurbs(&mut self, curve: u32, feed: FeedWord) {
         let Some(form) = self.program.capabilities.nurbs else { return };
         match form {
-            NurbsForm::G062 => self.nurbs_fanuc(curve, feed),
+            NurbsForm::G062 { .. } => self.nurbs_fanuc(curve, feed),
             NurbsForm::G052 => self.nurbs_linuxcnc(curve, feed),
         }
     }

@@ -73,8 +73,11 @@ pub enum FullCircle {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum NurbsForm {
     /// Fanuc `G06.2 P K X Y Z R`.
-    G062,
-    /// LinuxCNC `G5.2 … G5.3`.
+    G062 {
+        /// Decimals of printed knots.
+        knot_decimals: u8,
+    },
+    /// LinuxCNC `G5.2 … G5.3`; its knots are 0, 0, 0, 0, 1, 2, … and not printed.
     G052,
 }
 

@@ -1,8 +1,12 @@
 //! The plate cam on three controls.
 
-use super::cl::{Draft, plate};
+use std::sync::Arc;
+
+use super::cl::{Draft, contour, plate};
 use super::{INCH, dialect, lowered, made, made_with};
 use crate::cl::{Contour, Lead, RecordKind};
+use crate::geom::curve::CircularArc;
+use crate::geom::{Point2, Side};
 use crate::ir::{Band, Coolant, Feed, Interpolation, Rotary};
 
 fn draft(interpolation: Interpolation) -> Draft {
@@ -84,16 +88,45 @@ fn a_control_without_arcs_gets_lines_with_a_note() {
 }
 
 #[test]
-fn full_circles_are_split_where_they_must_be() {
-    let text = "inherits = \"fanuc\"\n[arcs]\nfull-circle = \"split\"\nmax-sweep = 90\n";
-    let made =
-        made_with(&draft(Interpolation::Circular).cl, &dialect("quarters.post.toml", Some(text)), None);
-    let wide = made_arcs(&draft(Interpolation::Circular));
-    assert!(made.certificate.moves.arcs > wide);
+fn full_circles_are_whole_or_split_as_the_control_wants() {
+    let circle = |text: Option<&str>, name: &str| {
+        let curve = CircularArc::circle(Point2::new(0.0, 0.0), 28.0, 0.3, true).unwrap();
+        let contour = contour(Arc::new(curve), Side::Left, Interpolation::Circular, Lead::Plunge);
+        made_with(&Draft::new().contour(contour).cl, &dialect(name, text), None).certificate.moves.arcs
+    };
+    for name in ["linuxcnc", "fanuc", "grbl"] {
+        assert_eq!(circle(None, name), 1, "{name}");
+    }
+    let quarters = "inherits = \"fanuc\"\n[arcs]\nfull-circle = \"split\"\nmax-sweep = 90\n";
+    assert_eq!(circle(Some(quarters), "quarters.post.toml"), 4);
+    let halves = "inherits = \"grbl\"\n[arcs]\nfull-circle = \"split\"\n";
+    assert_eq!(circle(Some(halves), "halves.post.toml"), 2);
 }
 
-fn made_arcs(draft: &Draft) -> u64 {
-    made(&draft.cl, "fanuc", None).certificate.moves.arcs
+#[test]
+fn arcs_are_split_at_the_largest_sweep() {
+    let text = "inherits = \"grbl\"\n[arcs]\nmax-sweep = 20\n";
+    let made = made_with(&draft(Interpolation::Circular).cl, &dialect("short.post.toml", Some(text)), None);
+    assert!(made.certificate.moves.arcs > 18);
+}
+
+#[test]
+fn nurbs_are_proven_where_the_control_has_them() {
+    for post in ["linuxcnc", "fanuc"] {
+        let made = made(&draft(Interpolation::Nurbs).cl, post, None);
+        assert_eq!(made.target.pieces[0].interpolation, Interpolation::Nurbs);
+        assert!(made.certificate.moves.nurbs > 0);
+        assert!(made.notes.is_empty(), "{:?}", made.notes);
+    }
+    assert_eq!(made(&draft(Interpolation::Nurbs).cl, "grbl", None).notes, ["N0603"]);
+}
+
+#[test]
+fn auto_takes_the_fewest_blocks() {
+    let auto =
+        |post: &str, rotary| made(&draft(Interpolation::Auto).cl, post, rotary).target.pieces[0].clone();
+    assert_eq!(auto("grbl", None).interpolation, Interpolation::Circular);
+    assert_eq!(auto("linuxcnc", Some('C')).interpolation, Interpolation::Circular);
 }
 
 #[test]
