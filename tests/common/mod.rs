@@ -1,6 +1,9 @@
 //! What several test programs need.
 #![allow(dead_code)]
 
+pub mod schema;
+pub mod scratch;
+
 use std::path::{Path, PathBuf};
 
 use partwright::source::{FileError, FileProvider};

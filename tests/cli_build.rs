@@ -1,0 +1,185 @@
+//! `partwright build` from the command line to the files it writes.
+
+mod common;
+
+use common::scratch::{Scratch, code, stderr};
+
+const PLATE: &str = "\
+PARTNO plate cam
+UNITS/ MM
+PARAM/ LIFT = 20mm, MIN, 5mm, MAX, 30mm, 'lift of the follower'
+F1 = FOLLOW/ TRANSL, ROLLER, 8
+M1 = MOTION/ DWELL, 30, RISE, 120, LIFT, MODSIN, DWELL, 60, RETURN, 120, LIFT, MODSIN, DWELL, 30
+C1 = CAM/ PLATE, BASE, 20, FOLLOW, F1, MOTION, M1, MAXPA, 45
+T1 = CUTTER/ FLAT, 16, NUMBER, 1
+LOADTL/ T1
+SPINDL/ 1200, CLW
+FEDRAT/ 300
+INTOL/ 0.01
+OUTTOL/ 0.01
+P1 = PROFIL/ C1, LINEAR, DEPTH, 5
+FINI
+";
+
+#[test]
+fn every_post_gets_its_file_beside_the_source() {
+    let scratch = Scratch::new("posts");
+    scratch.write("plate.apt", PLATE);
+    let output =
+        scratch.run(&["build", "plate.apt", "--post", "linuxcnc", "--post", "fanuc", "--post", "grbl"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    assert!(output.stdout.is_empty());
+    assert_eq!(scratch.names().len(), 4, "{:?}", scratch.names());
+    assert!(scratch.read("plate.linuxcnc.ngc").contains("G1"));
+    let summary = stderr(&output);
+    assert_eq!(summary.lines().filter(|l| l.contains("into and")).count(), 3, "{summary}");
+}
+
+#[test]
+fn one_output_goes_where_it_is_told() {
+    let scratch = Scratch::new("one");
+    scratch.write("plate.apt", PLATE);
+    let to_pipe = scratch.run(&["build", "plate.apt", "--post", "grbl", "-o", "-"]);
+    assert_eq!(code(&to_pipe), 0, "{}", stderr(&to_pipe));
+    assert_eq!(code(&scratch.run(&["build", "plate.apt", "--post", "grbl", "-o", "x.nc"])), 0);
+    assert_eq!(String::from_utf8_lossy(&to_pipe.stdout), scratch.read("x.nc"));
+    assert_eq!(scratch.names(), ["plate.apt", "x.nc"]);
+}
+
+#[test]
+fn names_that_clash_are_refused() {
+    let scratch = Scratch::new("clash");
+    scratch.write("plate.apt", PLATE).write("sub/plate.apt", PLATE);
+    let cases: [(&[&str], &str); 4] = [
+        (&["build", "plate.apt", "--post", "grbl", "--post", "fanuc", "-o", "x.nc"], "E0906"),
+        (&["build", "plate.apt", "--post", "grbl", "-o", "plate.apt"], "E0909"),
+        (&["build", "plate.apt", "sub/plate.apt", "--post", "grbl", "--out-dir", "nc"], "E0909"),
+        (&["build", "plate.apt"], "E0907"),
+    ];
+    for (args, id) in cases {
+        let output = scratch.run(args);
+        assert_eq!(code(&output), 2, "{args:?}: {}", stderr(&output));
+        assert!(stderr(&output).contains(id), "{args:?}: {}", stderr(&output));
+    }
+    assert_eq!(scratch.read("plate.apt"), PLATE);
+    assert_eq!(scratch.names(), ["plate.apt", "sub"]);
+}
+
+#[test]
+fn an_unwritable_target_exits_2_and_leaves_nothing_behind() {
+    let scratch = Scratch::new("unwritable");
+    scratch.write("plate.apt", PLATE).write("file", "a file, not a directory");
+    let output = scratch.run(&["build", "plate.apt", "--post", "grbl", "-o", "file/x.nc"]);
+    assert_eq!(code(&output), 2, "{}", stderr(&output));
+    assert!(stderr(&output).contains("E0905"), "{}", stderr(&output));
+    assert_eq!(scratch.names(), ["file", "plate.apt"]);
+}
+
+#[test]
+fn threads_and_repetition_do_not_change_a_byte() {
+    let scratch = Scratch::new("threads");
+    scratch.write("plate.apt", PLATE);
+    let mut texts = Vec::new();
+    for jobs in ["1", "2", "2"] {
+        let name = format!("{}.nc", texts.len());
+        let output = scratch.run(&[
+            "build",
+            "plate.apt",
+            "--post",
+            "linuxcnc",
+            "-j",
+            jobs,
+            "-o",
+            &name,
+            "--report",
+            "r.json",
+        ]);
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        texts.push((scratch.read(&name), scratch.read("r.json").replace(&name, "NAME")));
+    }
+    assert!(texts.iter().all(|t| *t == texts[0]));
+}
+
+#[test]
+fn a_parameter_is_overridden_within_its_range() {
+    let scratch = Scratch::new("define");
+    scratch.write("plate.apt", PLATE);
+    let with = |value: &str| {
+        scratch.run(&["build", "plate.apt", "--post", "grbl", "-o", "-", "-D", &format!("LIFT={value}")])
+    };
+    let (normal, other) = (with("20mm"), with("1in"));
+    assert_eq!((code(&normal), code(&other)), (0, 0), "{}", stderr(&other));
+    assert_ne!(normal.stdout, other.stdout);
+    assert_eq!(code(&with("99mm")), 1);
+    assert_eq!(code(&with("20deg")), 1);
+    assert_eq!(code(&scratch.run(&["check", "plate.apt", "-D", "LIFFT=20mm"])), 1);
+}
+
+#[test]
+fn stages_are_printed_or_written() {
+    let scratch = Scratch::new("emit");
+    scratch.write("plate.apt", PLATE);
+    let cl = scratch.run(&["build", "plate.apt", "--emit", "cl"]);
+    assert_eq!(code(&cl), 0, "{}", stderr(&cl));
+    assert!(
+        String::from_utf8_lossy(&cl.stdout).contains("LOADTL"),
+        "{}",
+        String::from_utf8_lossy(&cl.stdout)
+    );
+    let all = ["build", "plate.apt", "--post", "grbl", "--emit", "ast,ir,cl,target,nc", "--out-dir", "out"];
+    assert_eq!(code(&scratch.run(&all)), 0);
+    for name in ["plate.ast", "plate.ir", "plate.cl", "plate.grbl.target"] {
+        assert!(!scratch.read(&format!("out/{name}")).is_empty(), "{name}");
+    }
+}
+
+#[test]
+fn dependencies_name_every_file_also_after_errors() {
+    let scratch = Scratch::new("deps");
+    scratch.write("plate.apt", format!("INCLUD/ 'lib/one.apt'\n{PLATE}")).write("lib/one.apt", "X1 = 3\n");
+    let make = scratch.run(&["build", "plate.apt", "--post", "grbl", "--deps", "plate.d"]);
+    assert_eq!(code(&make), 0, "{}", stderr(&make));
+    let rule = scratch.read("plate.d");
+    assert!(rule.starts_with("plate.grbl.") && rule.contains(": lib/one.apt plate.apt"), "{rule}");
+    scratch.write("lib/one.apt", "X1 = 3 4\n");
+    let json = ["build", "plate.apt", "--post", "grbl", "--deps", "plate.json", "--deps-format", "json"];
+    assert_eq!(code(&scratch.run(&json)), 1);
+    let deps: serde_json::Value = serde_json::from_str(&scratch.read("plate.json")).expect("JSON");
+    assert_eq!(deps["inputs"], serde_json::json!(["lib/one.apt", "plate.apt"]));
+}
+
+#[test]
+fn files_outside_the_project_are_not_read() {
+    let scratch = Scratch::new("outside");
+    let main = format!("INCLUD/ '../secret.apt'\n{PLATE}");
+    scratch.write("secret.apt", "X1 = 3\n").write("project/plate.apt", &main);
+    let output = scratch.run(&["check", "project/plate.apt"]);
+    assert_ne!(code(&output), 0);
+    assert!(stderr(&output).contains("outside"), "{}", stderr(&output));
+    // A marker further up makes it one project.
+    scratch.write("partwright.toml", "");
+    assert_eq!(code(&scratch.run(&["check", "project/plate.apt"])), 0);
+    #[cfg(unix)]
+    {
+        std::fs::remove_file(scratch.0.join("partwright.toml")).expect("removed");
+        std::os::unix::fs::symlink("../secret.apt", scratch.0.join("project/link.apt")).expect("a link");
+        scratch.write("project/plate.apt", main.replace("../secret", "link"));
+        assert_ne!(code(&scratch.run(&["check", "project/plate.apt"])), 0);
+    }
+}
+
+#[test]
+fn the_report_follows_its_schema() {
+    let scratch = Scratch::new("report");
+    scratch.write("plate.apt", PLATE);
+    let args = ["build", "plate.apt", "--post", "linuxcnc", "--post", "grbl", "--report", "report.json"];
+    let output = scratch.run(&args);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let report: serde_json::Value = serde_json::from_str(&scratch.read("report.json")).expect("JSON");
+    let schema = include_str!("../docs/schema/report.schema.json");
+    let schema: serde_json::Value = serde_json::from_str(schema).expect("JSON");
+    common::schema::check(&schema, &schema, &report, "report").expect("a valid report");
+    let operation = &report["programs"][0]["outputs"][0]["certificate"]["operations"][0];
+    assert_eq!(operation["source"]["line"], 13);
+    assert!(operation["blocks"].as_u64() >= operation["pieces"][0]["lower_bound"].as_u64());
+}
