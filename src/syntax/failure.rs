@@ -106,15 +106,9 @@ fn unfinished_line(place: &Place<'_>, at: usize, found: &Found<'_>) -> Option<Di
     let (start, word) = word_before(place.text, at).filter(|&(s, _)| place.offset + s > joint)?;
     let only_word = after.trim_end().ends_with(word) && !after.contains(',');
     let starts_statement = matches!(found.text, "=" | "/") || vocab::is_statement_word(word);
-    (only_word && starts_statement && at > 0).then(|| {
-        Diagnostic::new(
-            &codes::UNFINISHED_LINE,
-            Span::new(place.file, joint, joint + 1),
-            "this mark says that the statement goes on, but the next line starts a new one",
-        )
-        .label(place.span(start, start + word.len()), "the next statement")
-        .help("delete the mark, or finish the list")
-    })
+    let next = place.span(start, start + word.len());
+    (only_word && starts_statement)
+        .then(|| slips::unfinished_line(Span::new(place.file, joint, joint + 1), next))
 }
 
 /// `GO TO/ 1, 2`: a word with a blank in it.
@@ -141,9 +135,11 @@ fn two_words(place: &Place<'_>, at: usize) -> Option<Diagnostic> {
     )
 }
 
-/// Structural words that are often written in two.
-const STRUCTURAL: [&str; 8] =
-    ["ELSEIF", "ENDIF", "ENDDO", "ENDWHILE", "ENDUNTIL", "LOOPST", "LOOPND", "JUMPTO"];
+/// The structural words.
+pub(super) const STRUCTURAL: [&str; 16] = [
+    "IF", "ELSEIF", "ELSE", "ENDIF", "DO", "ENDDO", "WHILE", "ENDWHILE", "UNTIL", "ENDUNTIL", "MACRO",
+    "TERMAC", "CALL", "LOOPST", "LOOPND", "JUMPTO",
+];
 
 /// `1.2.3`, and letters O in a number.
 fn bad_number(place: &Place<'_>, at: usize) -> Option<Diagnostic> {

@@ -75,6 +75,17 @@ fn plain(character: char) -> Option<char> {
     Some(plain)
 }
 
+/// A `,`, `/` or `=` at the end of a line behind which a new statement starts.
+pub(super) fn unfinished_line(mark: Span, next: Span) -> Diagnostic {
+    Diagnostic::new(
+        &codes::UNFINISHED_LINE,
+        mark,
+        "this mark says that the statement goes on, but the next line starts a new one",
+    )
+    .label(next, "the next statement")
+    .help("delete the mark, or finish the list")
+}
+
 /// A letter O among digits: `1O.5`, `O.5`. Returns the number that was meant.
 pub(super) fn letter_o(written: &str) -> Option<String> {
     let has_o = written.contains(['o', 'O']);

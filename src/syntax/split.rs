@@ -1,4 +1,4 @@
-//! Cuts a file into logical statements, without knowing what a word means.
+//! Cuts a file into logical statements. It knows no more of the words than which of them start statements.
 //!
 //! A statement ends at the end of its line or at `;`. The line goes on behind `$`, behind a trailing `,` `/` `=`
 //! and inside open parentheses. Comments are set aside. What is wrong at this level (characters that the
@@ -13,6 +13,7 @@ use super::slips;
 use crate::diag::codes::syntax as codes;
 use crate::diag::{Diagnostic, Sink};
 use crate::source::{FileId, Span};
+use crate::vocab;
 
 /// The words that take the rest of the line as text.
 pub const TEXT_WORDS: [&str; 5] = ["PARTNO", "REMARK", "PPRINT", "INSERT", "TITLES"];
@@ -127,6 +128,8 @@ impl Splitter<'_> {
                 Some(b' ' | b'\t' | b'\n' | b';') => self.at += 1,
                 Some(b'\r') if self.peek(1) == Some(b'\n') => self.at += 2,
                 Some(b'$') if self.peek(1) == Some(b'$') => self.comment(),
+                // The end mark of old DOS files.
+                Some(0x1a) if self.at + 1 == self.bytes.len() => return false,
                 Some(_) => return true,
             }
         }
@@ -353,10 +356,28 @@ impl Splitter<'_> {
             self.missing_close(scan, scan.end);
             return Next::End;
         }
+        if joint && starts_statement(next, last == Some(b'/')) {
+            self.unfinished(scan, last);
+            return Next::End;
+        }
         if joint {
             scan.joints.push(scan.end - 1);
         }
         Next::GoOn
+    }
+
+    /// The line promised more, and a new statement follows. A slash with nothing behind it is fine: `RAPID/`,
+    /// `M1 = MACRO/`.
+    fn unfinished(&mut self, scan: &mut Scan, last: Option<u8>) {
+        if !scan.open.is_empty() {
+            self.missing_close(scan, scan.end);
+        } else if last != Some(b'/') {
+            if scan.mistakes == 0 {
+                let next = self.span(self.at, word_end(self.bytes, self.at));
+                self.sink.push(slips::unfinished_line(self.span(scan.end - 1, scan.end), next));
+            }
+            scan.mistakes += 1;
+        }
     }
 
     /// A line that held nothing but `$`.
@@ -507,6 +528,28 @@ fn is_control(b: u8) -> bool {
 
 fn ends_operand(b: u8) -> bool {
     is_word(b) || matches!(b, b')' | b'\'' | b'"')
+}
+
+/// Whether a line surely starts a statement: `WORD/ …` or `name = WORD/ …` with a word that starts statements, or
+/// such a word alone where that counts (`alone`).
+fn starts_statement(next: &[u8], alone: bool) -> bool {
+    let head_end = word_end(next, 0);
+    let word = |start: usize, end: usize| {
+        let word = next.get(start..end).and_then(|w| core::str::from_utf8(w).ok()).unwrap_or("");
+        vocab::is_statement_word(word)
+            || super::failure::STRUCTURAL.iter().any(|s| s.eq_ignore_ascii_case(word))
+    };
+    let after = skip_blanks(next, head_end);
+    match next.get(after..).unwrap_or(&[]) {
+        [b'/', ..] => word(0, head_end),
+        [] | [b'\n' | b';', ..] | [b'\r', b'\n', ..] | [b'$', b'$', ..] => alone && word(0, head_end),
+        [b'=', rest @ ..] if rest.first() != Some(&b'=') && head_end > 0 => {
+            let start = skip_blanks(next, after + 1);
+            let end = word_end(next, start);
+            next.get(skip_blanks(next, end)) == Some(&b'/') && word(start, end)
+        }
+        _ => false,
+    }
 }
 
 /// Whether a line starts with something that cannot follow an operand.

@@ -321,13 +321,7 @@ impl Builder<'_> {
         };
         let at = self.offset + word.as_span().start();
         let diagnostic = match self.joints.iter().rfind(|&&j| j < at) {
-            Some(&joint) => Diagnostic::new(
-                &codes::UNFINISHED_LINE,
-                Span::new(self.file, joint, joint + 1),
-                "this mark says that the statement goes on, but the next line starts a new one",
-            )
-            .label(self.span(&word), "the next statement")
-            .help("delete the mark, or finish the list"),
+            Some(&joint) => slips::unfinished_line(Span::new(self.file, joint, joint + 1), self.span(&word)),
             None => Diagnostic::new(
                 &codes::UNEXPECTED,
                 self.span(&word),
