@@ -20,7 +20,7 @@ use std::sync::Arc;
 
 use super::Planner;
 use super::levels::levels;
-use super::profile::{APPROACH, guard, part_side, rough_contour};
+use super::profile::{guard, part_side, rough_contour};
 use super::room::Samples;
 use super::state::Ready;
 use crate::arena::Handle;
@@ -226,8 +226,7 @@ impl Planner<'_> {
         match step {
             Move::Down(p) => {
                 self.rapid(Point3::new(p.x, p.y, clearance), origin);
-                self.rapid(Point3::new(p.x, p.y, clearance.min(APPROACH)), origin);
-                self.linear(Point3::new(p.x, p.y, z), origin);
+                self.rapid(Point3::new(p.x, p.y, z), origin);
             }
             Move::Up(p) => {
                 self.linear(Point3::new(p.x, p.y, z), origin);
@@ -251,14 +250,20 @@ impl Planner<'_> {
             effort.levels,
             if effort.levels == 1 { "" } else { "s" }
         );
-        let diagnostic = Diagnostic::new(&ROUGHING_FIGURES, self.span(origin), message).note(format!(
-            "to remove {} mm² a level at {} radial depth, {} of path are needed at least",
-            (effort.area * 10.0).round() / 10.0,
-            self.show(effort.engagement),
-            short(effort.bound)
-        ));
+        let diagnostic = Diagnostic::new(&ROUGHING_FIGURES, self.span(origin), message)
+            .note(format!(
+                "{} of path are the least for this area and step: {} mm² a level",
+                short(effort.bound),
+                (effort.area * 10.0).round() / 10.0
+            ))
+            .note(format!("the cutter meets at most {} across the feed", self.show(effort.engagement)));
         self.report(diagnostic, origin);
     }
+}
+
+/// The band of the pass round the contour: it may not go deeper into the allowance than half of it.
+fn contour_band(job: &Job, loose: Band) -> Band {
+    if job.leave > 0.0 { Band { into: loose.into.min(0.5 * job.leave), out: loose.out } } else { job.band }
 }
 
 fn effort(job: &Job, plan: &Plan, count: usize, ready: Ready) -> Effort {
@@ -273,12 +278,12 @@ fn effort(job: &Job, plan: &Plan, count: usize, ready: Ready) -> Effort {
         area,
         engagement: plan.engagement,
         levels,
-        bound: area / plan.engagement * times,
+        bound: area / job.step * times,
     }
 }
 
 /// The plan with the shortest path at feed.
 fn best_plan(job: &Job) -> Option<Plan> {
-    let plans = [rings::plan(job)];
+    let plans = [rings::plan(job), circles::plan(job)];
     plans.into_iter().flatten().min_by(|a, b| a.length().total_cmp(&b.length()))
 }

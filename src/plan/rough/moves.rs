@@ -1,7 +1,7 @@
 //! A roughing plan of one level, as moves in the plane.
 
-use crate::geom::curve::{CurveRef, PlanarCurve};
-use crate::geom::{Point2, Side};
+use crate::geom::curve::{CurveRef, ends};
+use crate::geom::{Point2, Side, measure};
 use crate::ir::Band;
 
 /// One move of a plan.
@@ -68,25 +68,23 @@ impl Plan {
         }
         self.position = Some(p);
     }
-    /// Along `curve`, which starts where the cutter is, or straight to its start first.
+    /// Along `curve` through the stock; straight to its start first, if the cutter is elsewhere.
     pub fn cut(&mut self, curve: CurveRef, part: Side, band: Band) {
-        let (first, last) = crate::geom::curve::ends(curve.as_ref());
+        self.engaged += self.follow(curve, part, band);
+    }
+    /// Along `curve` where nothing is left to cut.
+    pub fn run(&mut self, curve: CurveRef, part: Side, band: Band) {
+        self.links += self.follow(curve, part, band);
+    }
+    /// Returns the curve's length, mm.
+    fn follow(&mut self, curve: CurveRef, part: Side, band: Band) -> f64 {
+        /// Accuracy of a length in a report, mm.
+        const ACCURACY: f64 = 1e-6;
+        let (first, last) = ends(curve.as_ref());
         self.go(first);
-        self.engaged += length(curve.as_ref());
         self.position = Some(last);
+        let length = measure::length(curve.as_ref(), ACCURACY);
         self.moves.push(Move::Cut { curve, part, band });
+        length
     }
-}
-
-/// Arc length of a curve, mm, by Simpson's rule on every smooth span.
-pub(in crate::plan) fn length(curve: &dyn PlanarCurve) -> f64 {
-    const PANELS: usize = 64;
-    let mut sum = 0.0;
-    for (span, pair) in curve.breaks().windows(2).enumerate() {
-        let h = (pair[1] - pair[0]) / PANELS as f64;
-        let speed = |i: usize| curve.at_in(span, pair[0] + h * i as f64).speed.abs();
-        let inner: f64 = (1..PANELS).map(|i| speed(i) * if i % 2 == 1 { 4.0 } else { 2.0 }).sum();
-        sum += (speed(0) + inner + speed(PANELS)) * h / 3.0;
-    }
-    sum
 }

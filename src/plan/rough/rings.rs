@@ -8,10 +8,10 @@
 
 use std::sync::Arc;
 
-use super::circles;
-use super::moves::Plan;
+use super::circles::{self, way_out};
+use super::moves::{Move, Plan};
 use super::passes::{Interval, Level, Positive};
-use super::{Job, MOST_PASSES};
+use super::{CLEAR, Job, MOST_PASSES, contour_band};
 use crate::geom::curve::{CurveRef, Frenet, Part, PlanarCurve, Reversed, into_domain, restarted};
 use crate::geom::{Point2, Side, Vec2, cross};
 use crate::ir::Band;
@@ -37,7 +37,7 @@ enum Detour {
 }
 
 /// Less than this on a wall, mm, is no work: the rounding of a blank that just holds the cam.
-const NO_WORK: f64 = 1e-6;
+pub(super) const NO_WORK: f64 = 1e-6;
 
 struct Rings<'a> {
     job: &'a Job,
@@ -57,7 +57,7 @@ impl<'a> Rings<'a> {
         let depth = Level::new(&job.samples, |f| to_edge(f, job.outward(f), blank));
         let total = (depth.greatest() - job.leave).max(0.0);
         let count = (total / job.step - 1e-9).ceil().max(1.0);
-        if !(count <= MOST_PASSES as f64) {
+        if count > MOST_PASSES as f64 {
             return None;
         }
         let spacing = total / count;
@@ -77,7 +77,7 @@ impl<'a> Rings<'a> {
         for (i, root) in roots.into_iter().enumerate() {
             self.valley(&mut plan, outermost_closed + 1, root);
             if i + 1 < count {
-                self.leave(&mut plan);
+                self.lift(&mut plan);
             }
         }
         for ring in (0..=outermost_closed).rev() {
@@ -102,7 +102,7 @@ impl<'a> Rings<'a> {
     /// Whether an open ring is cut in the contour's direction: the outermost closed ring follows the ring
     /// before it in the same direction, and the others alternate.
     fn forward(&self, ring: usize) -> bool {
-        (ring - self.closed()) % 2 == 0
+        (ring - self.closed()).is_multiple_of(2)
     }
 
     /// The valley under `interval` of `ring`, leaves first.
@@ -115,7 +115,7 @@ impl<'a> Rings<'a> {
         }
         for (i, child) in children.iter().enumerate() {
             if i > 0 {
-                self.leave(plan);
+                self.lift(plan);
             }
             self.valley(plan, ring + 1, *child);
         }
@@ -147,14 +147,14 @@ impl<'a> Rings<'a> {
     /// To the start of a pass: on its tangent from outside the blank, or from the end of the pass before.
     fn reach(&self, plan: &mut Plan, ring: usize, start: &Frenet) {
         let Some(from) = plan.position() else {
-            return plan.down(start.p - start.t * self.way_out(start.p, -start.t));
+            return plan.down(start.p - start.t * way_out(start.p, -start.t, self.job.outside));
         };
         match self.detour(ring, from, start) {
             Detour::None => {}
             Detour::Over(p) => plan.link(p),
             Detour::Blocked => {
-                self.leave(plan);
-                plan.down(start.p - start.t * self.way_out(start.p, -start.t));
+                self.lift(plan);
+                plan.down(start.p - start.t * way_out(start.p, -start.t, self.job.outside));
             }
         }
     }
@@ -184,26 +184,19 @@ impl<'a> Rings<'a> {
         })
     }
 
-    /// Length from `p` along the unit vector `way` to where the cutter is clear of the blank, mm.
-    fn way_out(&self, p: Point2, way: Vec2) -> f64 {
-        let along = p.coords.dot(&way);
-        let square = along * along + self.job.outside * self.job.outside - p.coords.norm_squared();
-        (square.max(0.0).sqrt() - along).max(0.0)
+    /// Straight up where the last pass ended.
+    fn lift(&self, plan: &mut Plan) {
+        if let Some(p) = plan.position() {
+            plan.up(p);
+        }
     }
 
-    /// Out of the blank and up, straight on from the end of an open pass.
-    fn leave(&self, plan: &mut Plan) {
-        let Some(super::moves::Move::Cut { curve, .. }) = plan.moves.last() else { return };
-        let end = last_of(curve.as_ref());
-        plan.up(end.p + end.t * self.way_out(end.p, end.t));
-    }
-
-    /// Out of the blank and up, straight away from the contour.
+    /// A little away from the contour, and up.
     fn finish(&self, plan: &mut Plan) {
-        let Some(super::moves::Move::Cut { curve, part, .. }) = plan.moves.last() else { return };
+        let Some(Move::Cut { curve, part, .. }) = plan.moves.last() else { return };
         let end = last_of(curve.as_ref());
         let away = end.n() * part.opposite().sign();
-        plan.up(end.p + away * self.way_out(end.p, away));
+        plan.up(end.p + away * CLEAR);
     }
 
     /// One ring all the way round.
@@ -213,11 +206,11 @@ impl<'a> Rings<'a> {
             Some(from) => self.touch(curve.as_ref(), from),
             None => self.nearest_to_edge(),
         };
-        let band = if ring == 0 { self.contour_band() } else { self.band };
+        let band = if ring == 0 { contour_band(self.job, self.band) } else { self.band };
         let round = restarted(&curve, start);
         if plan.position().is_none() {
             let first = round.at(round.domain().0);
-            plan.down(first.p - first.t * self.way_out(first.p, -first.t));
+            plan.down(first.p - first.t * way_out(first.p, -first.t, self.job.outside));
         }
         plan.cut(round, self.job.part, band);
     }
@@ -253,16 +246,6 @@ impl<'a> Rings<'a> {
         let radius = |f: &Frenet| f.p.coords.norm_squared();
         let farthest = self.job.samples.points.iter().max_by(|a, b| radius(&a.1).total_cmp(&radius(&b.1)));
         farthest.map_or(self.job.profile.domain().0, |(u, _)| *u)
-    }
-
-    /// The contour may not go deeper into the allowance than half of it.
-    fn contour_band(&self) -> Band {
-        let band = self.band;
-        if self.job.leave > 0.0 {
-            Band { into: band.into.min(0.5 * self.job.leave), out: band.out }
-        } else {
-            self.job.band
-        }
     }
 }
 

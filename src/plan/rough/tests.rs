@@ -4,12 +4,16 @@
 use std::sync::Arc;
 
 use super::moves::{Move, Plan};
-use super::{Job, best_plan};
+use super::{Job, best_plan, circles, rings};
+use crate::geom::cam::{Cam, CamDefinition};
 use crate::geom::curve::{CurveRef, Ends, PlanarCurve, Reversed, Spline};
+use crate::geom::follower::Follower;
+use crate::geom::motion::{Law, Motion, Segment, SegmentLaw};
 use crate::geom::{Point2, Side, Vec2, cross};
 use crate::ir::{Band, Flank};
 use crate::math::{PI, TAU, sin_cos};
 use crate::plan::room::Samples;
+use crate::units::Angle;
 
 /// Edge of a cell, mm.
 const CELL: f64 = 0.1;
@@ -35,6 +39,17 @@ fn flat_faced(base: f64, lift: f64, lobes: u32) -> CurveRef {
 /// The cam of Kim & Yang: base circle 20, roller 8, lift 20, modified sine.
 fn paper_cam() -> CurveRef {
     crate::plan::tests::paper_cam(false).flank(Flank::Inner)
+}
+
+/// A cam whose roller rises three times a turn, with hollows between the lobes.
+fn hollow_cam() -> CurveRef {
+    let law = SegmentLaw::Law(Law::by_name("MODSIN").expect("a law"));
+    let sixty = Angle::degrees(60.0);
+    let segments = (0..6)
+        .map(|i| if i % 2 == 0 { Segment::rise(sixty, 24.0, law) } else { Segment::fall(sixty, 24.0, law) });
+    let motion = Motion::from_segments(segments.collect()).expect("closes");
+    let follower = Follower::TranslatingRoller { radius: 6.0, offset: 0.0 };
+    Cam::new(CamDefinition::new(24.0, follower, motion)).expect("a cam").flank(Flank::Inner)
 }
 
 fn job(profile: CurveRef, blank: f64, cutter: f64, step: f64, leave: f64, part: Side) -> Job {
@@ -82,10 +97,10 @@ impl Field {
         for y in cy - reach..=cy + reach {
             for x in cx - reach..=cx + reach {
                 let (dx, dy) = (f64::from(x) * CELL - c.x, f64::from(y) * CELL - c.y);
-                if dx * dx + dy * dy < radius * radius {
-                    if let Some(i) = self.index(x, y) {
-                        self.solid[i] = false;
-                    }
+                if dx * dx + dy * dy < radius * radius
+                    && let Some(i) = self.index(x, y)
+                {
+                    self.solid[i] = false;
                 }
             }
         }
@@ -160,7 +175,7 @@ fn simulate(job: &Job, plan: &Plan) -> Seen {
 
 fn polyline(curve: &dyn PlanarCurve) -> Vec<Point2> {
     let (a, b) = curve.domain();
-    let count = (super::moves::length(curve) / STRIDE).ceil().max(1.0);
+    let count = (crate::geom::measure::length(curve, 1e-6) / STRIDE).ceil().max(1.0);
     (0..=count as i32).map(|i| curve.at(a + (b - a) * f64::from(i) / count).p).collect()
 }
 
@@ -182,7 +197,7 @@ fn outside(profile: &[Point2], p: Point2) -> f64 {
 fn check(job: &Job, plan: &Plan) {
     let seen = simulate(job, plan);
     let profile = polyline_of_profile(job);
-    assert!(seen.most <= job.step + 2.0 * CELL, "engagement {} over step {}", seen.most, job.step);
+    assert!(seen.most <= plan.engagement + 2.0 * CELL, "{} over {}", seen.most, plan.engagement);
     assert!((seen.length - plan.length()).abs() < 0.01 * plan.length(), "{} {}", seen.length, plan.length());
     for y in -seen.field.size..=seen.field.size {
         for x in -seen.field.size..=seen.field.size {
@@ -209,8 +224,8 @@ fn polyline_of_profile(job: &Job) -> Vec<Point2> {
 fn the_papers_cam_takes_less_path_than_the_papers_plan() {
     let job = job(paper_cam(), 42.0, 8.0, 2.0, 0.0, Side::Right);
     let plan = best_plan(&job).expect("a plan");
-    println!("engaged {} links {} total {}", plan.engaged, plan.links, plan.length());
     assert!(plan.length() < 1704.8, "{}", plan.length());
+    assert!(plan.engagement <= job.step + 1e-9, "{}", plan.engagement);
     check(&job, &plan);
 }
 
@@ -235,4 +250,23 @@ fn valleys_between_lobes_are_cut_one_after_the_other() {
     let job = job(flat_faced(30.0, 8.0, 2), 39.0, 6.0, 1.5, 0.2, Side::Left);
     let plan = best_plan(&job).expect("a plan");
     check(&job, &plan);
+}
+
+#[test]
+fn circles_clear_the_papers_cam_too() {
+    for (blank, leave, part) in [(42.0, 0.0, Side::Right), (46.0, 0.4, Side::Left)] {
+        let job = job(paper_cam(), blank, 8.0, 2.0, leave, part);
+        let plan = circles::plan(&job).expect("seen whole from the centre");
+        check(&job, &plan);
+    }
+}
+
+#[test]
+fn a_cam_with_hollows_narrower_than_the_rings_is_cleared_by_circles() {
+    let job = job(hollow_cam(), 50.0, 6.0, 2.0, 0.2, Side::Left);
+    assert!(rings::plan(&job).is_none(), "the rings have room after all");
+    let plan = best_plan(&job).expect("a plan");
+    check(&job, &plan);
+    // Against the steep walls of these hollows the cutter meets more than the step.
+    assert!(plan.engagement > job.step && plan.engagement < 1.5 * job.step, "{}", plan.engagement);
 }
