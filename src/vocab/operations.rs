@@ -1,0 +1,209 @@
+//! Point-to-point motion and operations.
+
+use super::{
+    Choices, EntityKind, Form, Group, Item, Kind, LENGTH, NOT_NEGATIVE, POSITIVE, Statement, Usage, choices, form,
+    optional, value, with, word,
+};
+
+const FEED: Item = optional("feed", Kind::Feed, "feed from here on");
+
+const TO_POINT: &[Form] = &[
+    form("point", "a point", &[value("point", Kind::Point, "where to"), FEED], &[]),
+    form(
+        "coordinates",
+        "coordinates",
+        &[value("x", LENGTH, "x"), value("y", LENGTH, "y"), optional("z", LENGTH, "z; 0 without it"), FEED],
+        &[],
+    ),
+];
+
+const AT_POINT: &[Form] = &[
+    form("point", "a point", &[value("point", Kind::Point, "where")], &[]),
+    form(
+        "coordinates",
+        "coordinates",
+        &[value("x", LENGTH, "x"), value("y", LENGTH, "y"), optional("z", LENGTH, "z; 0 without it")],
+        &[],
+    ),
+];
+
+const BY_DELTA: &[Form] = &[
+    form("vector", "a vector", &[value("vector", Kind::Vector, "how far"), FEED], &[]),
+    form(
+        "deltas",
+        "increments",
+        &[value("dx", LENGTH, "in x"), value("dy", LENGTH, "in y"), value("dz", LENGTH, "in z"), FEED],
+        &[],
+    ),
+    form("axis", "along the tool axis", &[value("dz", LENGTH, "in z")], &[]),
+];
+
+const fn motion(word: &'static str, help: &'static str, example: &'static str, forms: &'static [Form]) -> Statement {
+    Statement {
+        word,
+        aliases: &[],
+        group: Group::Motion,
+        usage: Usage::Command,
+        help,
+        example,
+        forms,
+        members: &[],
+    }
+}
+
+/// Point-to-point motion.
+pub const MOTION: &[Statement] = &[
+    motion("FROM", "where the cutter is at the start; no move", "FROM/ 0, 0, 50", AT_POINT),
+    motion("GOTO", "straight to a point", "GOTO/ 10, 20, 5", TO_POINT),
+    motion("GODLTA", "straight by increments", "GODLTA/ 0, 0, -5", BY_DELTA),
+    motion("RAPID", "the next move is at rapid", "RAPID", &[]),
+];
+
+const CUT: Choices = choices(
+    "cut",
+    &[
+        word("CLIMB", "climb milling: the edge enters at full chip thickness"),
+        word("CONVEN", "conventional milling"),
+    ],
+    "CLIMB",
+);
+
+const DEPTH: Choices = with(
+    "depth",
+    &[word("DEPTH", "bottom below Z0")],
+    &[value("depth", POSITIVE, "length")],
+    false,
+    "the stock's height",
+);
+
+const ENTRY: Choices = with(
+    "entry",
+    &[word("ENTRY", "how the contour is entered and left")],
+    &[
+        Item::Word(
+            "entry",
+            &[
+                word("TANARC", "quarter circle tangent to the contour"),
+                word("TANLIN", "straight and tangent to the contour"),
+                word("PLUNGE", "straight down at the contour"),
+            ],
+        ),
+        optional("size", POSITIVE, "radius of the arc, length of the line; chosen without it"),
+    ],
+    false,
+    "TANARC",
+);
+
+const PROFIL: &[Form] = &[form(
+    "profile",
+    "follows a contour",
+    &[value("contour", Kind::Contour, "a cam, a curve, or a chain of curves `(A, B, C)`")],
+    &[
+        choices(
+            "interpolation",
+            &[
+                word("LINEAR", "straight lines"),
+                word("CIRCUL", "tangent-continuous arcs"),
+                word("RTHETA", "table angle and radius"),
+                word("NURBS", "NURBS of the control"),
+                word("AUTO", "whatever takes the fewest blocks on the target"),
+            ],
+            "AUTO",
+        ),
+        choices(
+            "side",
+            &[
+                word("IN", "inside a closed curve"),
+                word("OUT", "outside a closed curve"),
+                word("LEFT", "left of a directed curve"),
+                word("RIGHT", "right of a directed curve"),
+                word("ON", "with the cutter's centre on the curve"),
+            ],
+            "the cam's own; OUT of a closed curve, ON an open one",
+        ),
+        CUT,
+        DEPTH,
+        with(
+            "step",
+            &[word("STEP", "largest axial step")],
+            &[value("step", POSITIVE, "length")],
+            false,
+            "the depth in one pass",
+        ),
+        ENTRY,
+        with(
+            "dwells",
+            &[word("DWELLS", "how dwell circles are made")],
+            &[Item::Word("dwells", &[word("EXACT", "spans that are exact arcs stay exact")])],
+            false,
+            "fitted with the rest",
+        ),
+        choices(
+            "flank",
+            &[word("INNER", "inner flank of a groove cam"), word("OUTER", "outer flank of a groove cam")],
+            "both, the inner one first",
+        ),
+    ],
+)];
+
+const ROUGH: &[Form] = &[form(
+    "cam",
+    "plate cam from round stock",
+    &[value("cam", Kind::Entity(&[EntityKind::Cam]), "the cam")],
+    &[
+        with(
+            "stock",
+            &[word("STOCK", "the blank")],
+            &[value("stock", Kind::Entity(&[EntityKind::Stock]), "stock")],
+            true,
+            "",
+        ),
+        with(
+            "step",
+            &[word("STEP", "largest axial step, and largest radial step unless WIDTH gives that")],
+            &[value("step", POSITIVE, "length")],
+            true,
+            "",
+        ),
+        with(
+            "width",
+            &[word("WIDTH", "largest radial step")],
+            &[value("width", POSITIVE, "length")],
+            false,
+            "as STEP",
+        ),
+        with(
+            "leave",
+            &[word("LEAVE", "stock left on the contour")],
+            &[value("leave", NOT_NEGATIVE, "length")],
+            false,
+            "0",
+        ),
+        DEPTH,
+        CUT,
+    ],
+)];
+
+const fn operation(word: &'static str, help: &'static str, example: &'static str, forms: &'static [Form]) -> Statement {
+    Statement {
+        word,
+        aliases: &[],
+        group: Group::Operations,
+        usage: Usage::Operation,
+        help,
+        example,
+        forms,
+        members: &[],
+    }
+}
+
+/// Operations.
+pub const ROWS: &[Statement] = &[
+    operation(
+        "PROFIL",
+        "follows a cam's profile, a curve or a chain of curves",
+        "OP1 = PROFIL/ C1, CIRCUL, CLIMB, DEPTH, 10",
+        PROFIL,
+    ),
+    operation("ROUGH", "clears round stock down to a plate cam", "ROUGH/ C1, STOCK, B1, STEP, 2, LEAVE, 0.3", ROUGH),
+];

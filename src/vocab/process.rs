@@ -1,0 +1,230 @@
+//! Cutters, stock, machine state, tolerances.
+
+use super::{
+    ANGLE, Choice, Choices, EntityKind, Form, Group, Item, Kind, LENGTH, Member, NOT_NEGATIVE, POSITIVE, Range,
+    Statement, Usage, choices, form, member, optional, program::SPEED, slot, value, with, word,
+};
+use crate::units::Dim;
+
+const CUTTER_OPTIONS: &[Choices] = &[
+    with(
+        "number",
+        &[word("NUMBER", "place in the magazine")],
+        &[value("number", Kind::Count(0, 99_999_999), "tool number")],
+        false,
+        "counted from 1",
+    ),
+    with("flutes", &[word("FLUTES", "cutting edges")], &[value("flutes", Kind::Count(1, 100), "count")], false, ""),
+    with(
+        "helix",
+        &[word("HELIX", "helix angle")],
+        &[value("helix", Kind::Number(Dim::ANGLE, Range::Between(-90.0, 90.0)), "angle")],
+        false,
+        "",
+    ),
+    with("length", &[word("LENGTH", "gauge length")], &[value("length", POSITIVE, "length")], false, ""),
+    with("stick", &[word("STICK", "free length out of the holder")], &[value("stick", POSITIVE, "length")], false, ""),
+    with("material", &[word("MATERL", "material of the cutter")], &[value("material", Kind::Name, "name")], false, ""),
+];
+
+const KINDS: &[Choice] = &[
+    word("FLAT", "flat end"),
+    word("BALL", "spherical end"),
+    word("BULL", "corner radius r"),
+    word("TAPER", "conical"),
+];
+
+const CUTTER: &[Form] = &[
+    form(
+        "seven",
+        "APT's seven parameters",
+        &[
+            value("d", POSITIVE, "diameter"),
+            optional("r", NOT_NEGATIVE, "corner radius; 0 without it"),
+            optional("e", LENGTH, "radial distance of the corner circle's centre; d/2 - r without it"),
+            optional("f", LENGTH, "axial distance of the corner circle's centre; r without it"),
+            optional("a", ANGLE, "angle of the bottom to the radius"),
+            optional("b", ANGLE, "angle of the side to the axis"),
+            optional("h", POSITIVE, "height"),
+        ],
+        CUTTER_OPTIONS,
+    ),
+    form(
+        "kind",
+        "by kind",
+        &[
+            Item::Word("kind", KINDS),
+            value("d", POSITIVE, "diameter"),
+            optional("r", NOT_NEGATIVE, "corner radius (BULL), or angle of the side (TAPER) as `b`"),
+        ],
+        CUTTER_OPTIONS,
+    ),
+];
+
+const CUTTER_MEMBERS: &[Member] = &[
+    Member { aliases: &["DIA", "D"], ..member("DIAMETER", "length", "diameter") },
+    Member { aliases: &["R"], ..member("RADIUS", "length", "half the diameter") },
+    member("CORNER", "length", "corner radius"),
+    member("NUMBER", "number", "tool number"),
+    member("FLUTES", "number", "cutting edges"),
+    member("LENGTH", "length", "gauge length"),
+];
+
+const STOCK: &[Form] = &[
+    form(
+        "round",
+        "cylinder about the origin, its top at Z0",
+        &[Item::Word("shape", &[word("ROUND", "cylinder")]), value("radius", POSITIVE, "radius")],
+        &[with("height", &[word("HEIGHT", "height below Z0")], &[value("height", POSITIVE, "length")], false, "unknown")],
+    ),
+    form(
+        "block",
+        "box between two opposite corners",
+        &[
+            Item::Word("shape", &[word("BLOCK", "box")]),
+            value("corner", Kind::Point, "one corner"),
+            value("opposite", Kind::Point, "the opposite corner"),
+        ],
+        &[],
+    ),
+];
+
+const STOCK_MEMBERS: &[Member] = &[
+    member("RADIUS", "length", "radius of a round"),
+    member("DIAMETER", "length", "diameter of a round"),
+    member("HEIGHT", "length", "height"),
+];
+
+const LOADTL: &[Form] = &[
+    form("tool", "a named cutter", &[value("tool", Kind::Entity(&[EntityKind::Cutter]), "cutter")], &[]),
+    form(
+        "number",
+        "a cutter by its tool number",
+        &[value("number", Kind::Count(0, 99_999_999), "tool number")],
+        &[],
+    ),
+];
+
+const SENSE: Choices =
+    choices("sense", &[word("CLW", "clockwise, M3"), word("CCLW", "counter-clockwise, M4")], "CLW");
+
+const SPINDL: &[Form] = &[
+    form(
+        "speed",
+        "starts the spindle",
+        &[value("speed", SPEED, "revolutions per minute")],
+        &[SENSE, choices("unit", &[word("RPM", "revolutions per minute")], "RPM")],
+    ),
+    form(
+        "rpm",
+        "starts the spindle",
+        &[Item::Word("unit", &[word("RPM", "revolutions per minute")]), value("speed", SPEED, "speed")],
+        &[SENSE],
+    ),
+    form(
+        "state",
+        "stops it, or starts it again as before",
+        &[Item::Word("state", &[word("OFF", "stop"), word("ON", "as before")])],
+        &[],
+    ),
+];
+
+const FEED_UNITS: &[Choice] = &[
+    word("MMPM", "mm per minute"),
+    word("IPM", "inches per minute"),
+    word("PERREV", "per revolution, in the program's unit"),
+    word("MMPR", "mm per revolution"),
+    word("IPR", "inches per revolution"),
+    word("PERTOO", "per tooth, in the program's unit"),
+    word("PERMIN", "per minute, in the program's unit"),
+];
+
+const FEDRAT: &[Form] = &[
+    form(
+        "feed",
+        "feed of what follows",
+        &[value("feed", Kind::Feed, "feed")],
+        &[choices("unit", FEED_UNITS, "PERMIN")],
+    ),
+    form("unit", "feed of what follows", &[Item::Word("unit", FEED_UNITS), value("feed", Kind::Feed, "feed")], &[]),
+];
+
+const COOLNT: &[Form] = &[form(
+    "coolant",
+    "coolant of what follows",
+    &[Item::Word(
+        "state",
+        &[word("FLOOD", "flood, M8"), word("MIST", "mist, M7"), word("OFF", "off, M9"), word("ON", "as before, or flood")],
+    )],
+    &[],
+)];
+
+const fn four(help: &'static str) -> Item {
+    Item::Repeat(slot("tolerance", NOT_NEGATIVE, help), 1, 4)
+}
+
+const INTOL: &[Form] = &[form("in", "", &[four("part surface[, drive surface, check surfaces]; the last repeats")], &[])];
+const OUTTOL: &[Form] = &[form("out", "", &[four("part surface[, drive surface, check surfaces]; the last repeats")], &[])];
+const TOLER: &[Form] = &[form("both", "", &[four("tolerance; the last repeats")], &[])];
+const THICK: &[Form] = &[form(
+    "thick",
+    "",
+    &[Item::Repeat(slot("thickness", LENGTH, "part surface[, drive surface, check surfaces]; the last repeats"), 1, 4)],
+    &[],
+)];
+const CLEARP: &[Form] = &[
+    form("height", "", &[value("height", POSITIVE, "height above Z0")], &[]),
+    form(
+        "plane",
+        "",
+        &[Item::Word("plane", &[word("XYPLAN", "parallel to the XY plane")]), value("height", POSITIVE, "height above Z0")],
+        &[],
+    ),
+];
+const DELAY: &[Form] =
+    &[form("time", "", &[value("time", Kind::Number(Dim::TIME, Range::Within(0.0, 99_999.0)), "seconds")], &[])];
+
+const fn row(word: &'static str, help: &'static str, example: &'static str, forms: &'static [Form]) -> Statement {
+    Statement {
+        word,
+        aliases: &[],
+        group: Group::Process,
+        usage: Usage::Command,
+        help,
+        example,
+        forms,
+        members: &[],
+    }
+}
+
+/// Rows of the table.
+pub const ROWS: &[Statement] = &[
+    Statement {
+        usage: Usage::DeclaresOrActs(EntityKind::Cutter),
+        members: CUTTER_MEMBERS,
+        ..row(
+            "CUTTER",
+            "a cutter; without a label it is also loaded",
+            "T1 = CUTTER/ FLAT, 16, NUMBER, 1, FLUTES, 4",
+            CUTTER,
+        )
+    },
+    Statement {
+        usage: Usage::Declares(EntityKind::Stock),
+        members: STOCK_MEMBERS,
+        ..row("STOCK", "the blank; the top of a round is Z0", "B1 = STOCK/ ROUND, 42, HEIGHT, 12", STOCK)
+    },
+    row("LOADTL", "changes to a cutter", "LOADTL/ T1", LOADTL),
+    row("SPINDL", "spindle speed and sense", "SPINDL/ 1200, CLW", SPINDL),
+    row("FEDRAT", "feed", "FEDRAT/ 300, MMPM", FEDRAT),
+    row("COOLNT", "coolant", "COOLNT/ FLOOD", COOLNT),
+    row("INTOL", "how far the cut may go into the part", "INTOL/ 0.01", INTOL),
+    row("OUTTOL", "how much may be left on the part", "OUTTOL/ 0.01", OUTTOL),
+    row("TOLER", "sets OUTTOL to the value and INTOL to 0", "TOLER/ 0.01", TOLER),
+    row("THICK", "stock to leave on later contours", "THICK/ 0.3", THICK),
+    row("CLEARP", "clearance plane for travel between cuts", "CLEARP/ 5", CLEARP),
+    row("DELAY", "dwells", "DELAY/ 2s", DELAY),
+    row("STOP", "program stop, M0", "STOP", &[]),
+    row("OPSTOP", "optional stop, M1", "OPSTOP", &[]),
+    row("END", "end of the machine program; the post writes it at the end anyway", "END", &[]),
+];
