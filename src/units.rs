@@ -161,10 +161,10 @@ impl Dim {
     /// What a machinist calls it: `length`, `feed per minute`; a formula of base units where no name exists.
     #[must_use]
     pub fn name(self) -> String {
-        NAMED
-            .iter()
-            .find(|(d, _)| *d == self)
-            .map_or_else(|| format!("quantity in {}", self.formula(LengthUnit::Millimetre)), |(_, n)| (*n).into())
+        NAMED.iter().find(|(d, _)| *d == self).map_or_else(
+            || format!("quantity in {}", self.formula(LengthUnit::Millimetre)),
+            |(_, n)| (*n).into(),
+        )
     }
     /// The unit in which a value of this dimension is shown in a program in `unit`.
     #[must_use]
@@ -200,7 +200,11 @@ impl Dim {
                 .iter()
                 .zip(names)
                 .filter(|(e, _)| **e != 0 && e.signum() == sign)
-                .map(|(e, n)| if e.unsigned_abs() == 1 { n.into() } else { format!("{n}^{}", e.unsigned_abs()) })
+                .map(
+                    |(e, n)| {
+                        if e.unsigned_abs() == 1 { n.into() } else { format!("{n}^{}", e.unsigned_abs()) }
+                    },
+                )
                 .collect()
         };
         let (over, under) = (side(1), side(-1));
@@ -237,8 +241,8 @@ pub struct Unit {
 
 /// Every simple unit suffix of the language, for messages.
 pub const UNIT_NAMES: [&str; 21] = [
-    "mm", "cm", "m", "um", "in", "ft", "deg", "rad", "rpm", "s", "ms", "min", "N", "kN", "MPa", "GPa", "rev", "tooth",
-    "mm/min", "mm/rev", "mm/tooth",
+    "mm", "cm", "m", "um", "in", "ft", "deg", "rad", "rpm", "s", "ms", "min", "N", "kN", "MPa", "GPa", "rev",
+    "tooth", "mm/min", "mm/rev", "mm/tooth",
 ];
 
 /// The unit written as `text`: a simple unit, or products, quotients and powers of them such as `mm/min`,
@@ -251,7 +255,11 @@ pub fn parse_unit(text: &str) -> Option<Unit> {
     loop {
         let end = rest.find(['/', '*']).unwrap_or(rest.len());
         let (part, tail) = rest.split_at(end);
-        let part = if part.trim() == "1" { Unit { factor: 1.0, dim: Dim::NONE } } else { parse_factor(part.trim())? };
+        let part = if part.trim() == "1" {
+            Unit { factor: 1.0, dim: Dim::NONE }
+        } else {
+            parse_factor(part.trim())?
+        };
         result = if divide {
             Unit { factor: result.factor / part.factor, dim: result.dim.over(part.dim)? }
         } else {
@@ -273,7 +281,8 @@ fn parse_factor(text: &str) -> Option<Unit> {
     if exponent.is_empty() {
         return Some(unit);
     }
-    let exponent: i8 = exponent.strip_prefix('^').unwrap_or(exponent).parse().ok().filter(|e| (1..=9).contains(e))?;
+    let exponent: i8 =
+        exponent.strip_prefix('^').unwrap_or(exponent).parse().ok().filter(|e| (1..=9).contains(e))?;
     let factor = (0..exponent).fold(1.0, |f, _| f * unit.factor);
     Some(Unit { factor, dim: unit.dim.power(exponent, 1)? })
 }
@@ -367,7 +376,8 @@ pub fn number(value: f64) -> String {
     if !(1e-3..1e12).contains(&value.abs()) {
         let text = format!("{value:.5e}");
         let (digits, exponent) = text.split_once('e').unwrap_or((&text, "0"));
-        let digits = if digits.contains('.') { digits.trim_end_matches('0').trim_end_matches('.') } else { digits };
+        let digits =
+            if digits.contains('.') { digits.trim_end_matches('0').trim_end_matches('.') } else { digits };
         return format!("{digits}e{exponent}");
     }
     let text = format!("{value:.6}");

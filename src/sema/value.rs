@@ -159,8 +159,18 @@ pub struct CircleValue {
 /// A follower as declared; lengths in mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FollowerValue {
-    /// The follower.
-    pub follower: crate::geom::follower::Follower,
+    /// Moves on a line; otherwise it swings about a pivot.
+    pub translating: bool,
+    /// Radius of the roller; `None` for a flat face.
+    pub roller: Option<f64>,
+    /// Offset.
+    pub offset: f64,
+    /// Pivot to roller centre; 0 where it has none.
+    pub arm: f64,
+    /// Cam centre to pivot; 0 where it has none.
+    pub pivot: f64,
+    /// The arm swings to the left.
+    pub left: bool,
     /// Its statement.
     pub span: Span,
 }

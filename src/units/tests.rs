@@ -16,7 +16,8 @@ fn compound_units_are_read() {
 
 #[test]
 fn a_bare_number_takes_the_dimension_of_its_place() {
-    let feed = Quantity::bare(300.0).land(Dim::FEED, LengthUnit::Millimetre).expect("a bare number fits anywhere");
+    let feed =
+        Quantity::bare(300.0).land(Dim::FEED, LengthUnit::Millimetre).expect("a bare number fits anywhere");
     assert_eq!(feed.value, 5.0);
     assert_eq!(feed.show(LengthUnit::Millimetre), "300 mm/min");
     let inch = Quantity::bare(1.1).land(Dim::LENGTH, LengthUnit::Inch).expect("a bare number fits anywhere");
@@ -45,14 +46,16 @@ fn numbers_in_messages_have_no_noise() {
 }
 
 fn any_dim() -> impl Strategy<Value = Dim> {
-    (-3i8..4, -1i8..2, -1i8..2, -1i8..2, -1i8..2, -1i8..2).prop_map(|(length, angle, time, force, revolution, tooth)| Dim {
-        length,
-        angle,
-        time,
-        force,
-        revolution,
-        tooth,
-    })
+    (-3i8..4, -1i8..2, -1i8..2, -1i8..2, -1i8..2, -1i8..2).prop_map(
+        |(length, angle, time, force, revolution, tooth)| Dim {
+            length,
+            angle,
+            time,
+            force,
+            revolution,
+            tooth,
+        },
+    )
 }
 
 proptest! {

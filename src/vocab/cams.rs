@@ -1,8 +1,8 @@
 //! Followers, motions, cams.
 
 use super::{
-    Choice, Choices, EntityKind, Form, Group, Item, Kind, LENGTH, Member, POSITIVE, Range, Statement, Usage, choices,
-    form, member, optional, program::SPEED, value, with, word,
+    Choice, Choices, EntityKind, Form, Group, Item, Kind, LENGTH, Member, POSITIVE, Range, Statement, Usage,
+    choices, form, member, optional, program::SPEED, value, with, word,
 };
 use crate::units::Dim;
 
@@ -14,25 +14,18 @@ const ROLLER_RADIUS: Item = value("radius", POSITIVE, "radius of the roller");
 
 const OFFSET: Choices = with(
     "offset",
-    &[word("OFFSET", "distance of the follower's line from the cam's centre; of an oscillating face from its pivot")],
+    &[word(
+        "OFFSET",
+        "distance of the follower's line from the cam's centre; of an oscillating face from its pivot",
+    )],
     &[value("offset", LENGTH, "length; positive raises the pressure angle of the rise")],
     false,
     "0",
 );
-const ARM: Choices = with(
-    "arm",
-    &[word("ARM", "pivot to roller centre")],
-    &[value("arm", POSITIVE, "length")],
-    true,
-    "",
-);
-const PIVOT: Choices = with(
-    "pivot",
-    &[word("PIVOT", "cam centre to pivot")],
-    &[value("pivot", POSITIVE, "length")],
-    true,
-    "",
-);
+const ARM: Choices =
+    with("arm", &[word("ARM", "pivot to roller centre")], &[value("arm", POSITIVE, "length")], true, "");
+const PIVOT: Choices =
+    with("pivot", &[word("PIVOT", "cam centre to pivot")], &[value("pivot", POSITIVE, "length")], true, "");
 const SIDE: Choices = choices(
     "side",
     &[word("LEFT", "the arm swings to the left"), word("RIGHT", "the arm swings to the right")],
@@ -56,19 +49,9 @@ const FOLLOW_MEMBERS: &[Member] = &[
 const LIFT: Kind = Kind::Lift;
 const SPAN: Kind = Kind::Number(Dim::ANGLE, Range::Positive);
 
-const fn boundary(name: &'static str, words: &'static [Choice], order: u8) -> Choices {
-    with(
-        name,
-        words,
-        match order {
-            1 => &[value("velocity", Kind::LiftRate(1), "lift per degree")],
-            2 => &[value("acceleration", Kind::LiftRate(2), "lift per degree squared")],
-            _ => &[value("jerk", Kind::LiftRate(3), "lift per degree cubed")],
-        },
-        false,
-        "",
-    )
-}
+const VELOCITY: &[Item] = &[value("velocity", Kind::LiftRate(1), "lift per degree")];
+const ACCELERATION: &[Item] = &[value("acceleration", Kind::LiftRate(2), "lift per degree squared")];
+const JERK: &[Item] = &[value("jerk", Kind::LiftRate(3), "lift per degree cubed")];
 
 const MOTION: &[Form] = &[
     Form {
@@ -76,7 +59,13 @@ const MOTION: &[Form] = &[
         help: "segments in order; boundary values follow a segment whose law is POLY",
         lead: &[],
         options: &[
-            with("dwell", &[word("DWELL", "the follower rests")], &[value("angle", SPAN, "cam angle")], false, ""),
+            with(
+                "dwell",
+                &[word("DWELL", "the follower rests")],
+                &[value("angle", SPAN, "cam angle")],
+                false,
+                "",
+            ),
             with(
                 "rise",
                 &[word("RISE", "the follower lifts")],
@@ -99,12 +88,12 @@ const MOTION: &[Form] = &[
                 false,
                 "",
             ),
-            boundary("v0", &[word("V0", "velocity at the start of a POLY segment")], 1),
-            boundary("a0", &[word("A0", "acceleration at its start")], 2),
-            boundary("j0", &[word("J0", "jerk at its start")], 3),
-            boundary("v1", &[word("V1", "velocity at its end")], 1),
-            boundary("a1", &[word("A1", "acceleration at its end")], 2),
-            boundary("j1", &[word("J1", "jerk at its end")], 3),
+            with("v0", &[word("V0", "velocity at the start of a POLY segment")], VELOCITY, false, ""),
+            with("a0", &[word("A0", "acceleration at its start")], ACCELERATION, false, ""),
+            with("j0", &[word("J0", "jerk at its start")], JERK, false, ""),
+            with("v1", &[word("V1", "velocity at its end")], VELOCITY, false, ""),
+            with("a1", &[word("A1", "acceleration at its end")], ACCELERATION, false, ""),
+            with("j1", &[word("J1", "jerk at its end")], JERK, false, ""),
         ],
         ordered: true,
     },
@@ -119,10 +108,8 @@ const MOTION: &[Form] = &[
     ),
 ];
 
-const MOTION_MEMBERS: &[Member] = &[
-    member("LIFT", "length or angle", "largest lift"),
-    member("ANGLE", "angle", "sum of the segments"),
-];
+const MOTION_MEMBERS: &[Member] =
+    &[member("LIFT", "length or angle", "largest lift"), member("ANGLE", "angle", "sum of the segments")];
 
 const CAM: &[Form] = &[form(
     "plate",
@@ -150,7 +137,11 @@ const CAM: &[Form] = &[form(
             true,
             "",
         ),
-        choices("rotation", &[word("CLW", "the cam turns clockwise"), word("CCLW", "counter-clockwise")], "CLW"),
+        choices(
+            "rotation",
+            &[word("CLW", "the cam turns clockwise"), word("CCLW", "counter-clockwise")],
+            "CLW",
+        ),
         with("speed", &[word("SPEED", "speed of the cam")], &[value("speed", SPEED, "rpm")], false, ""),
         with(
             "maxpa",
@@ -159,7 +150,11 @@ const CAM: &[Form] = &[form(
             false,
             "30 deg",
         ),
-        choices("groove", &[word("GROOVE", "both flanks of a groove for the roller")], "outside profile only"),
+        choices(
+            "groove",
+            &[word("GROOVE", "both flanks of a groove for the roller")],
+            "outside profile only",
+        ),
         with(
             "width",
             &[word("WIDTH", "width of the follower's flat face")],

@@ -1,8 +1,8 @@
 //! Points, vectors, lines, circles, curves.
 
 use super::{
-    ANGLE, Choice, Choices, EntityKind, Form, Group, Item, Kind, LENGTH, Member, NOT_NEGATIVE, POSITIVE, Statement,
-    Usage, choices, form, member, optional, slot, value, word,
+    ANGLE, Choice, Choices, EntityKind, Form, Group, Item, Kind, LENGTH, Member, NOT_NEGATIVE, POSITIVE,
+    Statement, Usage, choices, form, member, optional, slot, value, word,
 };
 
 const LARGER: &[Choice] = &[
@@ -22,10 +22,8 @@ const XYPLAN: Item = Item::Word("plane", &[word("XYPLAN", "in the XY plane")]);
 const LINE_ITEM: Item = value("line", Kind::Entity(&[EntityKind::Line]), "line");
 const CIRCLE_ITEM: Item = value("circle", Kind::Entity(&[EntityKind::Circle]), "circle");
 const POINT_ITEM: Item = value("point", Kind::Point, "point");
-const SIDES: &[Choice] = &[
-    word("LEFT", "on the left, seen along the line's direction"),
-    word("RIGHT", "on the right"),
-];
+const SIDES: &[Choice] =
+    &[word("LEFT", "on the left, seen along the line's direction"), word("RIGHT", "on the right")];
 const LINE_OR_CIRCLE: Kind = Kind::Entity(&[EntityKind::Line, EntityKind::Circle]);
 
 const POINT: &[Form] = &[
@@ -88,7 +86,11 @@ const VECTOR: &[Form] = &[
     form(
         "components",
         "components; bare numbers give a direction without dimension",
-        &[value("x", Kind::Any, "x"), value("y", Kind::Any, "y"), optional("z", Kind::Any, "z; 0 without it")],
+        &[
+            value("x", Kind::Any, "x"),
+            value("y", Kind::Any, "y"),
+            optional("z", Kind::Any, "z; 0 without it"),
+        ],
         &[],
     ),
     form("points", "from one point to another", &[POINT_ITEM, value("to", Kind::Point, "point")], &[]),
@@ -196,7 +198,11 @@ const CIRCLE: &[Form] = &[
     form(
         "coordinates",
         "centre and radius",
-        &[value("x", LENGTH, "x of the centre"), value("y", LENGTH, "y of the centre"), value("r", POSITIVE, "radius")],
+        &[
+            value("x", LENGTH, "x of the centre"),
+            value("y", LENGTH, "y of the centre"),
+            value("r", POSITIVE, "radius"),
+        ],
         &[],
     ),
     form(
@@ -261,8 +267,12 @@ const CHAIN: Choices =
     choices("chain", &[word("CHAIN", "a chain of cubics: 3 m + 1 points")], "one curve of degree points - 1");
 
 const BEZIER: &[Form] = &[form("bezier", "by its control points", &[CONTROL], &[CHAIN])];
-const CURVE: &[Form] =
-    &[form("bezier", "by its control points", &[Item::Word("kind", &[word("BEZIER", "Bezier curve")]), CONTROL], &[CHAIN])];
+const CURVE: &[Form] = &[form(
+    "bezier",
+    "by its control points",
+    &[Item::Word("kind", &[word("BEZIER", "Bezier curve")]), CONTROL],
+    &[CHAIN],
+)];
 
 const POINT_MEMBERS: &[Member] =
     &[member("X", "length", "x"), member("Y", "length", "y"), member("Z", "length", "z")];
@@ -305,7 +315,14 @@ pub const ROWS: &[Statement] = &[
     row("POINT", EntityKind::Point, "a point", "P1 = POINT/ 10, 20", POINT, POINT_MEMBERS),
     row("VECTOR", EntityKind::Vector, "a vector", "V1 = VECTOR/ 1, 0, 0", VECTOR, POINT_MEMBERS),
     row("LINE", EntityKind::Line, "a line, directed", "L1 = LINE/ P1, P2", LINE, LINE_MEMBERS),
-    row("CIRCLE", EntityKind::Circle, "a circle", "K1 = CIRCLE/ CENTER, P1, RADIUS, 5", CIRCLE, CIRCLE_MEMBERS),
+    row(
+        "CIRCLE",
+        EntityKind::Circle,
+        "a circle",
+        "K1 = CIRCLE/ CENTER, P1, RADIUS, 5",
+        CIRCLE,
+        CIRCLE_MEMBERS,
+    ),
     row(
         "BEZIER",
         EntityKind::Curve,

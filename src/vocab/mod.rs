@@ -318,7 +318,12 @@ const fn value(name: &'static str, kind: Kind, help: &'static str) -> Item {
 const fn optional(name: &'static str, kind: Kind, help: &'static str) -> Item {
     Item::Optional(slot(name, kind, help))
 }
-const fn form(name: &'static str, help: &'static str, lead: &'static [Item], options: &'static [Choices]) -> Form {
+const fn form(
+    name: &'static str,
+    help: &'static str,
+    lead: &'static [Item],
+    options: &'static [Choices],
+) -> Form {
     Form { name, help, lead, options, ordered: false }
 }
 const fn choices(name: &'static str, words: &'static [Choice], default: &'static str) -> Choices {
@@ -441,9 +446,9 @@ impl Statement {
     /// The member called `name` (or an alias), case-blind.
     #[must_use]
     pub fn member(&self, name: &str) -> Option<&'static Member> {
-        self.members
-            .iter()
-            .find(|m| m.name.eq_ignore_ascii_case(name) || m.aliases.iter().any(|a| a.eq_ignore_ascii_case(name)))
+        self.members.iter().find(|m| {
+            m.name.eq_ignore_ascii_case(name) || m.aliases.iter().any(|a| a.eq_ignore_ascii_case(name))
+        })
     }
 }
 
@@ -451,9 +456,10 @@ impl Form {
     /// Every minor word of the form.
     pub fn minor_words(&self) -> impl Iterator<Item = &'static str> {
         let lead = self.lead.iter().flat_map(Item::words);
-        let options = self.options.iter().flat_map(|o| {
-            o.words.iter().map(|c| c.word).chain(o.values.iter().flat_map(Item::words))
-        });
+        let options = self
+            .options
+            .iter()
+            .flat_map(|o| o.words.iter().map(|c| c.word).chain(o.values.iter().flat_map(Item::words)));
         lead.chain(options)
     }
 }

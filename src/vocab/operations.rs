@@ -1,8 +1,8 @@
 //! Point-to-point motion and operations.
 
 use super::{
-    Choices, EntityKind, Form, Group, Item, Kind, LENGTH, NOT_NEGATIVE, POSITIVE, Statement, Usage, choices, form,
-    optional, value, with, word,
+    Choices, EntityKind, Form, Group, Item, Kind, LENGTH, NOT_NEGATIVE, POSITIVE, Statement, Usage, choices,
+    form, optional, value, with, word,
 };
 
 const FEED: Item = optional("feed", Kind::Feed, "feed from here on");
@@ -38,7 +38,12 @@ const BY_DELTA: &[Form] = &[
     form("axis", "along the tool axis", &[value("dz", LENGTH, "in z")], &[]),
 ];
 
-const fn motion(word: &'static str, help: &'static str, example: &'static str, forms: &'static [Form]) -> Statement {
+const fn motion(
+    word: &'static str,
+    help: &'static str,
+    example: &'static str,
+    forms: &'static [Form],
+) -> Statement {
     Statement {
         word,
         aliases: &[],
@@ -184,7 +189,12 @@ const ROUGH: &[Form] = &[form(
     ],
 )];
 
-const fn operation(word: &'static str, help: &'static str, example: &'static str, forms: &'static [Form]) -> Statement {
+const fn operation(
+    word: &'static str,
+    help: &'static str,
+    example: &'static str,
+    forms: &'static [Form],
+) -> Statement {
     Statement {
         word,
         aliases: &[],
@@ -205,5 +215,10 @@ pub const ROWS: &[Statement] = &[
         "OP1 = PROFIL/ C1, CIRCUL, CLIMB, DEPTH, 10",
         PROFIL,
     ),
-    operation("ROUGH", "clears round stock down to a plate cam", "ROUGH/ C1, STOCK, B1, STEP, 2, LEAVE, 0.3", ROUGH),
+    operation(
+        "ROUGH",
+        "clears round stock down to a plate cam",
+        "ROUGH/ C1, STOCK, B1, STEP, 2, LEAVE, 0.3",
+        ROUGH,
+    ),
 ];

@@ -1,8 +1,8 @@
 //! Cutters, stock, machine state, tolerances.
 
 use super::{
-    ANGLE, Choice, Choices, EntityKind, Form, Group, Item, Kind, LENGTH, Member, NOT_NEGATIVE, POSITIVE, Range,
-    Statement, Usage, choices, form, member, optional, program::SPEED, slot, value, with, word,
+    ANGLE, Choice, Choices, EntityKind, Form, Group, Item, Kind, LENGTH, Member, NOT_NEGATIVE, POSITIVE,
+    Range, Statement, Usage, choices, form, member, optional, program::SPEED, slot, value, with, word,
 };
 use crate::units::Dim;
 
@@ -14,7 +14,13 @@ const CUTTER_OPTIONS: &[Choices] = &[
         false,
         "counted from 1",
     ),
-    with("flutes", &[word("FLUTES", "cutting edges")], &[value("flutes", Kind::Count(1, 100), "count")], false, ""),
+    with(
+        "flutes",
+        &[word("FLUTES", "cutting edges")],
+        &[value("flutes", Kind::Count(1, 100), "count")],
+        false,
+        "",
+    ),
     with(
         "helix",
         &[word("HELIX", "helix angle")],
@@ -23,8 +29,20 @@ const CUTTER_OPTIONS: &[Choices] = &[
         "",
     ),
     with("length", &[word("LENGTH", "gauge length")], &[value("length", POSITIVE, "length")], false, ""),
-    with("stick", &[word("STICK", "free length out of the holder")], &[value("stick", POSITIVE, "length")], false, ""),
-    with("material", &[word("MATERL", "material of the cutter")], &[value("material", Kind::Name, "name")], false, ""),
+    with(
+        "stick",
+        &[word("STICK", "free length out of the holder")],
+        &[value("stick", POSITIVE, "length")],
+        false,
+        "",
+    ),
+    with(
+        "material",
+        &[word("MATERL", "material of the cutter")],
+        &[value("material", Kind::Name, "name")],
+        false,
+        "",
+    ),
 ];
 
 const KINDS: &[Choice] = &[
@@ -75,7 +93,13 @@ const STOCK: &[Form] = &[
         "round",
         "cylinder about the origin, its top at Z0",
         &[Item::Word("shape", &[word("ROUND", "cylinder")]), value("radius", POSITIVE, "radius")],
-        &[with("height", &[word("HEIGHT", "height below Z0")], &[value("height", POSITIVE, "length")], false, "unknown")],
+        &[with(
+            "height",
+            &[word("HEIGHT", "height below Z0")],
+            &[value("height", POSITIVE, "length")],
+            false,
+            "unknown",
+        )],
     ),
     form(
         "block",
@@ -146,7 +170,12 @@ const FEDRAT: &[Form] = &[
         &[value("feed", Kind::Feed, "feed")],
         &[choices("unit", FEED_UNITS, "PERMIN")],
     ),
-    form("unit", "feed of what follows", &[Item::Word("unit", FEED_UNITS), value("feed", Kind::Feed, "feed")], &[]),
+    form(
+        "unit",
+        "feed of what follows",
+        &[Item::Word("unit", FEED_UNITS), value("feed", Kind::Feed, "feed")],
+        &[],
+    ),
 ];
 
 const COOLNT: &[Form] = &[form(
@@ -154,7 +183,12 @@ const COOLNT: &[Form] = &[form(
     "coolant of what follows",
     &[Item::Word(
         "state",
-        &[word("FLOOD", "flood, M8"), word("MIST", "mist, M7"), word("OFF", "off, M9"), word("ON", "as before, or flood")],
+        &[
+            word("FLOOD", "flood, M8"),
+            word("MIST", "mist, M7"),
+            word("OFF", "off, M9"),
+            word("ON", "as before, or flood"),
+        ],
     )],
     &[],
 )];
@@ -163,13 +197,19 @@ const fn four(help: &'static str) -> Item {
     Item::Repeat(slot("tolerance", NOT_NEGATIVE, help), 1, 4)
 }
 
-const INTOL: &[Form] = &[form("in", "", &[four("part surface[, drive surface, check surfaces]; the last repeats")], &[])];
-const OUTTOL: &[Form] = &[form("out", "", &[four("part surface[, drive surface, check surfaces]; the last repeats")], &[])];
+const INTOL: &[Form] =
+    &[form("in", "", &[four("part surface[, drive surface, check surfaces]; the last repeats")], &[])];
+const OUTTOL: &[Form] =
+    &[form("out", "", &[four("part surface[, drive surface, check surfaces]; the last repeats")], &[])];
 const TOLER: &[Form] = &[form("both", "", &[four("tolerance; the last repeats")], &[])];
 const THICK: &[Form] = &[form(
     "thick",
     "",
-    &[Item::Repeat(slot("thickness", LENGTH, "part surface[, drive surface, check surfaces]; the last repeats"), 1, 4)],
+    &[Item::Repeat(
+        slot("thickness", LENGTH, "part surface[, drive surface, check surfaces]; the last repeats"),
+        1,
+        4,
+    )],
     &[],
 )];
 const CLEARP: &[Form] = &[
@@ -177,14 +217,26 @@ const CLEARP: &[Form] = &[
     form(
         "plane",
         "",
-        &[Item::Word("plane", &[word("XYPLAN", "parallel to the XY plane")]), value("height", POSITIVE, "height above Z0")],
+        &[
+            Item::Word("plane", &[word("XYPLAN", "parallel to the XY plane")]),
+            value("height", POSITIVE, "height above Z0"),
+        ],
         &[],
     ),
 ];
-const DELAY: &[Form] =
-    &[form("time", "", &[value("time", Kind::Number(Dim::TIME, Range::Within(0.0, 99_999.0)), "seconds")], &[])];
+const DELAY: &[Form] = &[form(
+    "time",
+    "",
+    &[value("time", Kind::Number(Dim::TIME, Range::Within(0.0, 99_999.0)), "seconds")],
+    &[],
+)];
 
-const fn row(word: &'static str, help: &'static str, example: &'static str, forms: &'static [Form]) -> Statement {
+const fn row(
+    word: &'static str,
+    help: &'static str,
+    example: &'static str,
+    forms: &'static [Form],
+) -> Statement {
     Statement {
         word,
         aliases: &[],

@@ -8,7 +8,13 @@ use crate::units::Dim;
 /// Words of the structure that are no major words of their own.
 pub const STRUCTURE_WORDS: [&str; 9] = ["AND", "OR", "NOT", "ALL", "THRU", "INCR", "DECR", "INVERS", "CANON"];
 
-const fn row(group: Group, usage: Usage, word: &'static str, help: &'static str, example: &'static str) -> Statement {
+const fn row(
+    group: Group,
+    usage: Usage,
+    word: &'static str,
+    help: &'static str,
+    example: &'static str,
+) -> Statement {
     Statement { word, aliases: &[], group, usage, help, example, forms: &[], members: &[] }
 }
 
@@ -58,8 +64,12 @@ const PARAM: &[Form] = &[form(
     ],
 )];
 
-const INCLUD: &[Form] =
-    &[form("include", "another source file", &[value("file", Kind::Text, "path, relative to this file")], &[])];
+const INCLUD: &[Form] = &[form(
+    "include",
+    "another source file",
+    &[value("file", Kind::Text, "path, relative to this file")],
+    &[],
+)];
 
 const RESERV: &[Form] = &[form(
     "reserve",
@@ -133,7 +143,11 @@ pub const ROWS: &[Statement] = &[
     ignored("3DCALC", "chooses a solver"),
     ignored("AUTOPS", "part surface through the cutter's end"),
     ignored("NOPS", "no part surface"),
-    structure("IF", "carries out what follows when the condition holds", "IF/ N > 3\nELSEIF/ N == 3\nELSE\nENDIF"),
+    structure(
+        "IF",
+        "carries out what follows when the condition holds",
+        "IF/ N > 3\nELSEIF/ N == 3\nELSE\nENDIF",
+    ),
     structure("ELSEIF", "other condition of an `IF`", "ELSEIF/ N == 3"),
     structure("ELSE", "what to do when no condition held", "ELSE"),
     structure("ENDIF", "end of `IF`", "ENDIF"),
@@ -154,7 +168,11 @@ pub const ROWS: &[Statement] = &[
         "carries out a macro; arguments by name or by place, a word included",
         "CALL/ HOLE, AT = P1, DEPTH = 5mm",
     ),
-    structure("LOOPST", "start of a stretch with jump labels", "LOOPST\nA1) N = N + 1\nIF (N - 5) A1, A2, A2\nA2) LOOPND"),
+    structure(
+        "LOOPST",
+        "start of a stretch with jump labels",
+        "LOOPST\nA1) N = N + 1\nIF (N - 5) A1, A2, A2\nA2) LOOPND",
+    ),
     structure("LOOPND", "end of `LOOPST`", "LOOPND"),
     structure("JUMPTO", "goes on at a label of the same loop or macro", "JUMPTO/ A1"),
     Statement {

@@ -86,6 +86,10 @@ pub const NO_TOLERANCE: Code = Code { id: "E0240", title: "INTOL and OUTTOL are 
 pub const NO_DEPTH: Code = Code { id: "E0241", title: "the depth is unknown", page: include_str!("../../../docs/diagnostics/E0241.md") };
 /// a cutter that cannot be.
 pub const CUTTER_SHAPE: Code = Code { id: "E0242", title: "a cutter that cannot be", page: include_str!("../../../docs/diagnostics/E0242.md") };
+/// an increment from an unknown place.
+pub const NO_POSITION: Code = Code { id: "E0243", title: "an increment from an unknown place", page: include_str!("../../../docs/diagnostics/E0243.md") };
+/// a side or flank that the contour does not have.
+pub const NO_SUCH_SIDE: Code = Code { id: "E0244", title: "a side or flank that the contour does not have", page: include_str!("../../../docs/diagnostics/E0244.md") };
 /// powers and signs that readers take in two ways.
 pub const POWER_ORDER: Code = Code { id: "W0251", title: "powers and signs that readers take in two ways", page: include_str!("../../../docs/diagnostics/W0251.md") };
 /// statements after FINI.
@@ -96,4 +100,4 @@ pub const CUTTER_KIND: Code = Code { id: "W0253", title: "a cutter that does not
 pub const IGNORED: Code = Code { id: "N0261", title: "a word that does nothing here", page: include_str!("../../../docs/diagnostics/N0261.md") };
 
 /// All codes of this area.
-pub const ALL: &[&Code] = &[&UNKNOWN_WORD, &NOT_YET, &UNKNOWN_NAME, &UNKNOWN_MINOR, &WRONG_KIND, &MISSING_VALUE, &DOUBLED_WORD, &WRONG_DIMENSION, &OUT_OF_RANGE, &TOO_MANY, &DIMENSIONS_DIFFER, &UNKNOWN_UNIT, &DIVISION_BY_ZERO, &NO_VALUE, &ALREADY_DECLARED, &RESERVED, &LABEL, &UNKNOWN_FUNCTION, &FUNCTION_ARGUMENTS, &UNKNOWN_MEMBER, &SUBSCRIPT, &NOT_A_CONDITION, &BLOCK, &UNKNOWN_MACRO, &MACRO_ARGUMENTS, &LOOP_LIMIT, &CALL_LIMIT, &SIZE_LIMIT, &JUMP, &INCLUDE, &INCLUDE_CYCLE, &DEFINE, &PARAMETER_RANGE, &UNITS_LATE, &WRONG_OPERAND, &WORDS_EXCLUDE, &NO_TOOL, &NO_SPINDLE, &NO_FEED, &NO_TOLERANCE, &NO_DEPTH, &CUTTER_SHAPE, &POWER_ORDER, &AFTER_FINI, &CUTTER_KIND, &IGNORED];
+pub const ALL: &[&Code] = &[&UNKNOWN_WORD, &NOT_YET, &UNKNOWN_NAME, &UNKNOWN_MINOR, &WRONG_KIND, &MISSING_VALUE, &DOUBLED_WORD, &WRONG_DIMENSION, &OUT_OF_RANGE, &TOO_MANY, &DIMENSIONS_DIFFER, &UNKNOWN_UNIT, &DIVISION_BY_ZERO, &NO_VALUE, &ALREADY_DECLARED, &RESERVED, &LABEL, &UNKNOWN_FUNCTION, &FUNCTION_ARGUMENTS, &UNKNOWN_MEMBER, &SUBSCRIPT, &NOT_A_CONDITION, &BLOCK, &UNKNOWN_MACRO, &MACRO_ARGUMENTS, &LOOP_LIMIT, &CALL_LIMIT, &SIZE_LIMIT, &JUMP, &INCLUDE, &INCLUDE_CYCLE, &DEFINE, &PARAMETER_RANGE, &UNITS_LATE, &WRONG_OPERAND, &WORDS_EXCLUDE, &NO_TOOL, &NO_SPINDLE, &NO_FEED, &NO_TOLERANCE, &NO_DEPTH, &CUTTER_SHAPE, &NO_POSITION, &NO_SUCH_SIDE, &POWER_ORDER, &AFTER_FINI, &CUTTER_KIND, &IGNORED];

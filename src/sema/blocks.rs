@@ -1,0 +1,271 @@
+//! Which block ends belong to which beginnings.
+
+use std::collections::BTreeMap;
+
+use crate::diag::Diagnostic;
+use crate::diag::codes::semantics as codes;
+use crate::source::Span;
+use crate::syntax::ast::{Program, Statement, StatementKind};
+
+/// A parsed file with its blocks matched.
+#[derive(Debug)]
+pub struct Code {
+    /// The file.
+    pub program: Program,
+    /// For every statement, how it is linked to the rest of its block.
+    pub links: Vec<Link>,
+    /// For every statement, the innermost `LOOPST` or `MACRO` it stands in.
+    pub arenas: Vec<Option<usize>>,
+    /// Jump labels by the arena they stand in (`None`: outside) and name, upper case.
+    pub labels: BTreeMap<(Option<usize>, String), usize>,
+}
+
+/// A statement's place in its block.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Link {
+    /// Not part of a block's frame, or of a broken one.
+    None,
+    /// `IF`, `ELSEIF`, `ELSE`: the next branch (or the end), and the end.
+    Branch {
+        /// Next `ELSEIF`, `ELSE` or `ENDIF`.
+        next: usize,
+        /// `ENDIF`.
+        end: usize,
+    },
+    /// Start of a loop or macro.
+    Start {
+        /// Its end.
+        end: usize,
+    },
+    /// End of a loop or macro.
+    End {
+        /// Its start.
+        start: usize,
+    },
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Block {
+    If,
+    Do,
+    While,
+    Until,
+    Macro,
+    Loop,
+}
+
+impl Block {
+    const fn words(self) -> (&'static str, &'static str) {
+        match self {
+            Block::If => ("IF", "ENDIF"),
+            Block::Do => ("DO", "ENDDO"),
+            Block::While => ("WHILE", "ENDWHILE"),
+            Block::Until => ("UNTIL", "ENDUNTIL"),
+            Block::Macro => ("MACRO", "TERMAC"),
+            Block::Loop => ("LOOPST", "LOOPND"),
+        }
+    }
+}
+
+enum Role {
+    Open(Block),
+    Middle(&'static str),
+    Close(Block),
+    Plain,
+}
+
+fn role(kind: &StatementKind) -> Role {
+    match kind {
+        StatementKind::If(_) => Role::Open(Block::If),
+        StatementKind::ElseIf(_) => Role::Middle("ELSEIF"),
+        StatementKind::Else => Role::Middle("ELSE"),
+        StatementKind::EndIf => Role::Close(Block::If),
+        StatementKind::Do { .. } => Role::Open(Block::Do),
+        StatementKind::EndDo => Role::Close(Block::Do),
+        StatementKind::While(_) => Role::Open(Block::While),
+        StatementKind::EndWhile => Role::Close(Block::While),
+        StatementKind::Until(_) => Role::Open(Block::Until),
+        StatementKind::EndUntil => Role::Close(Block::Until),
+        StatementKind::Macro { .. } => Role::Open(Block::Macro),
+        StatementKind::TerMac => Role::Close(Block::Macro),
+        StatementKind::LoopStart => Role::Open(Block::Loop),
+        StatementKind::LoopEnd => Role::Close(Block::Loop),
+        StatementKind::Command(_)
+        | StatementKind::Assign { .. }
+        | StatementKind::Text { .. }
+        | StatementKind::ArithmeticIf { .. }
+        | StatementKind::Call { .. }
+        | StatementKind::JumpTo(_)
+        | StatementKind::Bad { .. } => Role::Plain,
+    }
+}
+
+struct Open {
+    block: Block,
+    /// The opening statement and, for `IF`, its branches.
+    branches: Vec<usize>,
+    has_else: bool,
+}
+
+struct Matcher<'a> {
+    statements: &'a [Statement],
+    links: Vec<Link>,
+    open: Vec<Open>,
+    /// A statement could not be read: it may have been the missing beginning.
+    lost: bool,
+    problems: Vec<Diagnostic>,
+}
+
+/// Matches the blocks of a file; the second value lists what does not match.
+#[must_use]
+pub fn match_blocks(program: Program) -> (Code, Vec<Diagnostic>) {
+    let mut matcher = Matcher {
+        statements: &program.statements,
+        links: vec![Link::None; program.statements.len()],
+        open: Vec::new(),
+        lost: program.statements.iter().any(|s| matches!(s.kind, StatementKind::Bad { .. })),
+        problems: Vec::new(),
+    };
+    matcher.run();
+    let (links, mut problems) = (matcher.links, matcher.problems);
+    let arenas = arenas(&program.statements, &links);
+    let labels = labels(&program.statements, &arenas, &mut problems);
+    (Code { program, links, arenas, labels }, problems)
+}
+
+impl Matcher<'_> {
+    fn run(&mut self) {
+        for (i, statement) in self.statements.iter().enumerate() {
+            match role(&statement.kind) {
+                Role::Plain => {}
+                Role::Open(block) => self.open.push(Open { block, branches: vec![i], has_else: false }),
+                Role::Middle(word) => self.middle(i, word),
+                Role::Close(block) => self.close(i, block),
+            }
+        }
+        while let Some(open) = self.open.pop() {
+            self.unclosed(&open, None);
+        }
+    }
+
+    fn span(&self, index: usize) -> Option<Span> {
+        self.statements.get(index).map(|s| s.span)
+    }
+
+    fn middle(&mut self, i: usize, word: &'static str) {
+        let Some(open) = self.open.last_mut().filter(|o| o.block == Block::If) else {
+            self.stray(i, word, "IF");
+            return;
+        };
+        let first_else = open.branches.last().copied().filter(|_| open.has_else);
+        open.branches.push(i);
+        open.has_else |= word == "ELSE";
+        if let (Some(first), Some(span)) = (first_else, self.span(i)) {
+            let mut problem = Diagnostic::new(&codes::BLOCK, span, format!("{word} after the ELSE of the same IF"));
+            if let Some(first) = self.span(first) {
+                problem = problem.label(first, "the ELSE");
+            }
+            self.problems.push(problem);
+        }
+    }
+
+    fn close(&mut self, i: usize, block: Block) {
+        let Some(depth) = self.open.iter().rposition(|o| o.block == block) else {
+            let (start, end) = block.words();
+            self.stray(i, end, start);
+            return;
+        };
+        while self.open.len() > depth + 1 {
+            if let Some(inner) = self.open.pop() {
+                self.unclosed(&inner, Some(i));
+            }
+        }
+        let Some(open) = self.open.pop() else { return };
+        self.link(&open, i);
+    }
+
+    fn link(&mut self, open: &Open, end: usize) {
+        let mut set = |index: usize, link: Link| {
+            if let Some(slot) = self.links.get_mut(index) {
+                *slot = link;
+            }
+        };
+        let Some(&start) = open.branches.first() else { return };
+        if open.block == Block::If {
+            let nexts = open.branches.iter().skip(1).copied().chain([end]);
+            for (&branch, next) in open.branches.iter().zip(nexts) {
+                set(branch, Link::Branch { next, end });
+            }
+        } else {
+            set(start, Link::Start { end });
+        }
+        set(end, Link::End { start });
+    }
+
+    fn unclosed(&mut self, open: &Open, found: Option<usize>) {
+        let Some(span) = open.branches.first().and_then(|&i| self.span(i)) else { return };
+        if self.lost {
+            return;
+        }
+        let (start, end) = open.block.words();
+        let mut problem = Diagnostic::new(&codes::BLOCK, span, format!("this {start} has no {end}"))
+            .help(format!("write {end} where the block ends"));
+        if let Some(at) = found.and_then(|i| self.span(i)) {
+            problem = problem.label(at, format!("{end} must come before this"));
+        }
+        self.problems.push(problem);
+    }
+
+    fn stray(&mut self, i: usize, word: &str, start: &str) {
+        if self.lost {
+            return;
+        }
+        let Some(span) = self.span(i) else { return };
+        let mut problem = Diagnostic::new(&codes::BLOCK, span, format!("{word} without {start}"));
+        if let Some(open) = self.open.last()
+            && let Some(at) = open.branches.first().and_then(|&i| self.span(i))
+        {
+            let (start, end) = open.block.words();
+            problem = problem.label(at, format!("this {start} is open and ends with {end}"));
+        }
+        self.problems.push(problem);
+    }
+}
+
+/// The innermost `LOOPST` or `MACRO` of each statement.
+fn arenas(statements: &[Statement], links: &[Link]) -> Vec<Option<usize>> {
+    let mut stack: Vec<(usize, usize)> = Vec::new();
+    let mut result = Vec::with_capacity(statements.len());
+    for (i, statement) in statements.iter().enumerate() {
+        while stack.last().is_some_and(|&(_, end)| i > end) {
+            stack.pop();
+        }
+        result.push(stack.last().map(|&(start, _)| start));
+        let opens = matches!(statement.kind, StatementKind::Macro { .. } | StatementKind::LoopStart);
+        if let (true, Some(Link::Start { end })) = (opens, links.get(i)) {
+            stack.push((i, *end));
+        }
+    }
+    result
+}
+
+fn labels(
+    statements: &[Statement],
+    arenas: &[Option<usize>],
+    problems: &mut Vec<Diagnostic>,
+) -> BTreeMap<(Option<usize>, String), usize> {
+    let mut labels = BTreeMap::new();
+    for (i, statement) in statements.iter().enumerate() {
+        let Some(label) = &statement.jump_label else { continue };
+        let arena = arenas.get(i).copied().flatten();
+        if let Some(first) = labels.insert((arena, label.upper()), i) {
+            let mut problem =
+                Diagnostic::new(&codes::JUMP, label.span, format!("the jump label {} stands here twice", label.text));
+            if let Some(first) = statements.get(first).and_then(|s| s.jump_label.as_ref()) {
+                problem = problem.label(first.span, "first here");
+            }
+            problems.push(problem);
+        }
+    }
+    labels
+}

@@ -1,0 +1,423 @@
+//! Commands, declarations and assignments: which code carries them out, and what may be named how.
+
+use std::rc::Rc;
+
+use crate::diag::Diagnostic;
+use crate::diag::codes::semantics as codes;
+use crate::ir::StepKind;
+use crate::source::Span;
+use crate::syntax::ast::{Command, Expr, Name, Target};
+use crate::vocab::{self, EntityKind, Statement, Usage};
+
+use super::arguments::Matched;
+use super::scope::{Array, Binding, BindingKind, Element};
+use super::value::{Entity, Value};
+use super::{Analyser, End, limits};
+
+impl Analyser<'_> {
+    /// Carries out a command or declaration.
+    pub(super) fn command(&mut self, command: &Command, span: Span) {
+        let Some(statement) = self.statement_row(command) else {
+            if let Some(label) = &command.label {
+                self.scope.poison(&label.name);
+            }
+            return self.state.forget();
+        };
+        match statement.usage {
+            Usage::Declares(kind) => self.declaration(statement, kind, command),
+            Usage::DeclaresOrActs(kind) if command.label.is_some() => self.declaration(statement, kind, command),
+            Usage::DeclaresOrActs(_) => self.unlabelled_cutter(statement, command, span),
+            Usage::Operation => self.operation(statement, command, span),
+            Usage::Ignored => self.ignored(statement, command),
+            Usage::Command | Usage::Text | Usage::Structure | Usage::Later => {
+                self.no_label(statement, command);
+                self.act(statement, command, span);
+            }
+        }
+    }
+
+    /// The row of the table, unless the word is unknown or not for this version.
+    fn statement_row(&mut self, command: &Command) -> Option<&'static Statement> {
+        for word in command.prefixes.iter().chain([&command.word]) {
+            let Some(row) = vocab::find(&word.text) else {
+                self.unknown_word(word);
+                return None;
+            };
+            if row.usage == Usage::Later {
+                self.not_yet(row, word.span);
+                return None;
+            }
+        }
+        if let Some(first) = command.prefixes.first() {
+            let message = format!("{} cannot stand before {}", first.text, command.word.text);
+            self.report(Diagnostic::new(&codes::UNKNOWN_MINOR, first.span, message));
+            return None;
+        }
+        let row = vocab::find(&command.word.text)?;
+        if row.usage == Usage::Structure && row.forms.is_empty() {
+            let message = format!("{} is not written like this", row.word);
+            let first = row.example.lines().next().unwrap_or(row.word);
+            self.report(Diagnostic::new(&codes::LABEL, command.word.span, message).help(format!("write `{first}`")));
+            return None;
+        }
+        Some(row)
+    }
+
+    fn not_yet(&mut self, row: &Statement, span: Span) {
+        let message = format!("{} ({}) is a word of the language that this version does not carry out yet", row.word, row.help);
+        self.report(Diagnostic::new(&codes::NOT_YET, span, message));
+    }
+
+    fn ignored(&mut self, row: &Statement, command: &Command) {
+        let message = format!("{} does nothing here: {}", row.word, row.help);
+        self.report(Diagnostic::new(&codes::IGNORED, command.word.span, message));
+    }
+
+    fn no_label(&mut self, statement: &Statement, command: &Command) {
+        if let Some(label) = &command.label {
+            let message = format!("{} makes nothing that could be called {}", statement.word, label.name.text);
+            self.report(Diagnostic::new(&codes::LABEL, label.name.span, message).help("leave out the name and the `=`"));
+            self.scope.poison(&label.name);
+        }
+    }
+
+    /// A statement that makes a named thing.
+    fn declaration(&mut self, statement: &'static Statement, kind: EntityKind, command: &Command) {
+        let Some(target) = &command.label else {
+            let message = format!("{} makes {}, and it has no name", statement.word, kind.name());
+            let problem = Diagnostic::new(&codes::LABEL, command.word.span, message)
+                .help(format!("write `NAME = {}/ …`", statement.word));
+            self.report(problem);
+            self.arguments(statement, command);
+            return;
+        };
+        let free = self.may_bind(target);
+        let value = self.define(statement, command, &target.name.text);
+        if free {
+            self.bind(target, kind, value.unwrap_or(Value::Poison));
+        }
+    }
+
+    /// A definition among arguments or inside an expression.
+    pub(super) fn nested(&mut self, command: &Command) -> Value {
+        let Some(statement) = self.statement_row(command) else { return Value::Poison };
+        let (Usage::Declares(kind) | Usage::DeclaresOrActs(kind)) = statement.usage else {
+            let message = format!("{} makes no value that could stand here", statement.word);
+            self.report(Diagnostic::new(&codes::WRONG_KIND, command.word.span, message));
+            return Value::Poison;
+        };
+        let free = command.label.as_ref().is_none_or(|target| self.may_bind(target));
+        let name = command.label.as_ref().map_or("", |t| t.name.text.as_str());
+        let value = self.define(statement, command, name).unwrap_or(Value::Poison);
+        if let Some(target) = command.label.as_ref().filter(|_| free) {
+            self.bind(target, kind, value.clone());
+        }
+        value
+    }
+
+    /// The value that a declaration makes.
+    fn define(&mut self, statement: &'static Statement, command: &Command, name: &str) -> Option<Value> {
+        let m = self.arguments(statement, command)?;
+        if self.program.curves.len() + self.program.cams.len() + self.program.tools.len() >= limits::ENTITIES {
+            self.limit(format!("the program declares more than {} things", limits::ENTITIES));
+            return None;
+        }
+        match statement.word {
+            "POINT" => self.point(&m),
+            "VECTOR" => self.vector_entity(&m),
+            "LINE" => self.line(&m, name),
+            "CIRCLE" => self.circle(&m, name),
+            "BEZIER" | "CURVE" => self.bezier(&m, name),
+            "CUTTER" => self.cutter(&m, name).map(|t| Value::Entity(Entity::Cutter(t))),
+            "STOCK" => self.stock(&m, name),
+            "FOLLOW" => self.follow(&m),
+            "MOTION" => self.motion(&m),
+            "CAM" => self.cam(&m, name),
+            _ => None,
+        }
+    }
+
+    /// Statements that act and take no label.
+    fn act(&mut self, statement: &'static Statement, command: &Command, span: Span) {
+        match statement.word {
+            "MACHIN" => return self.machin(command),
+            "RESERV" => return self.reserv(command),
+            _ => {}
+        }
+        let Some(m) = self.arguments(statement, command) else {
+            if statement.word == "PARAM" {
+                self.poison_parameter(command);
+            }
+            return self.state.forget();
+        };
+        self.act_on(statement.word, &m, span);
+    }
+
+    fn act_on(&mut self, word: &str, m: &Matched, span: Span) {
+        match word {
+            "UNITS" => self.units(m, span),
+            "PARAM" => self.param(m),
+            "INCLUD" => self.includ(m, span),
+            "FINI" => self.ended = Some(End::Fini),
+            "LOADTL" => self.loadtl(m, span),
+            "SPINDL" => self.spindl(m, span),
+            "FEDRAT" => self.fedrat(m, span),
+            "COOLNT" => self.coolnt(m),
+            "INTOL" | "OUTTOL" | "TOLER" => self.tolerance(word, m, span),
+            "THICK" => self.thick(m),
+            "CLEARP" => self.state.clearance = m.number("height").unwrap_or(self.state.clearance),
+            "DELAY" => self.step(StepKind::Dwell(m.number("time").unwrap_or(0.0))),
+            "STOP" => self.step(StepKind::Stop),
+            "OPSTOP" => self.step(StepKind::OptionalStop),
+            "RAPID" => self.state.rapid = true,
+            "FROM" => self.from(m),
+            "GOTO" => self.goto(m, span),
+            "GODLTA" => self.godlta(m, span),
+            // END: the post ends every program.
+            _ => {}
+        }
+    }
+
+    /// A `PARAM` whose arguments are wrong still takes its name.
+    fn poison_parameter(&mut self, command: &Command) {
+        for arg in &command.args {
+            if let crate::syntax::ast::ArgKind::Named { name, .. } = &arg.kind {
+                if let Some(define) = self.defines.iter().position(|d| name.is(d.name())) {
+                    self.defines.remove(define);
+                }
+                self.scope.poison(name);
+            }
+        }
+    }
+
+    /// `name = value`.
+    pub(super) fn assign(&mut self, target: &Target, value: &Expr) {
+        let value = (self.evaluate(value), value.span);
+        let value = match value {
+            (Value::Word(word), span) => {
+                let message = format!("{word} is a word of the language, not a value");
+                self.report(Diagnostic::new(&codes::WRONG_KIND, span, message));
+                Value::Poison
+            }
+            (Value::List(_), span) => {
+                let message = "a list has no name; name its parts";
+                self.report(Diagnostic::new(&codes::WRONG_KIND, span, message));
+                Value::Poison
+            }
+            (value, _) => value,
+        };
+        self.assign_value(target, value);
+    }
+
+    /// Sets a variable or an element.
+    pub(super) fn assign_value(&mut self, target: &Target, value: Value) {
+        if !target.subscripts.is_empty() {
+            return self.set_element(target, None, value);
+        }
+        let name = &target.name;
+        let key = name.upper();
+        let declared = match self.scope.get_mut(&key) {
+            Some(Binding { kind: BindingKind::Variable(slot), .. }) => {
+                *slot = value;
+                return;
+            }
+            Some(Binding { kind: kind @ BindingKind::Poison, .. }) => {
+                *kind = BindingKind::Variable(value);
+                return;
+            }
+            Some(binding) => Some((binding.declared, what(&binding.kind))),
+            None => None,
+        };
+        if let Some((declared, what)) = declared {
+            let message = format!("{} is {what} and cannot be set again", name.text);
+            self.report(
+                Diagnostic::new(&codes::ALREADY_DECLARED, name.span, message)
+                    .label(declared, "declared here")
+                    .help(format!("choose another name, for example `{}`", self.free_name(&key))),
+            );
+            return;
+        }
+        if self.check_reserved(name) && self.room_for_names() {
+            self.scope.set(key, Binding { kind: BindingKind::Variable(value), declared: name.span });
+        }
+    }
+
+    fn room_for_names(&mut self) -> bool {
+        if self.scope.len() < limits::NAMES {
+            return true;
+        }
+        self.limit(format!("the program has more than {} names", limits::NAMES));
+        false
+    }
+
+    /// Whether a name may be declared: not a word of the language, and free. The same statement may declare it
+    /// again, in a loop or another call.
+    pub(super) fn may_declare(&mut self, name: &Name) -> bool {
+        if !self.check_reserved(name) || !self.room_for_names() {
+            return false;
+        }
+        let key = name.upper();
+        let Some(binding) = self.scope.get(&key) else { return true };
+        if binding.declared == name.span || matches!(binding.kind, BindingKind::Poison) {
+            return true;
+        }
+        let (declared, what) = (binding.declared, what(&binding.kind));
+        let message = format!("{} is {what} already", name.text);
+        self.report(
+            Diagnostic::new(&codes::ALREADY_DECLARED, name.span, message)
+                .label(declared, "first here")
+                .help(format!("choose another name, for example `{}`", self.free_name(&key))),
+        );
+        false
+    }
+
+    fn may_bind(&mut self, target: &Target) -> bool {
+        if target.subscripts.is_empty() { self.may_declare(&target.name) } else { self.check_reserved(&target.name) }
+    }
+
+    /// Reports a word of the language used as a name.
+    pub(super) fn check_reserved(&mut self, name: &Name) -> bool {
+        if !vocab::is_reserved(&name.text) {
+            return true;
+        }
+        let message = format!("{} is a word of the language and cannot be a name", name.upper());
+        let free = self.free_name(&name.upper());
+        self.report(
+            Diagnostic::new(&codes::RESERVED, name.span, message).help(format!("`{free}` is free")),
+        );
+        false
+    }
+
+    /// A free name that resembles `name`.
+    fn free_name(&self, name: &str) -> String {
+        (1..)
+            .map(|n| format!("{name}{n}"))
+            .find(|n| self.scope.get(n).is_none() && !vocab::is_reserved(n))
+            .unwrap_or_default()
+    }
+
+    fn bind(&mut self, target: &Target, kind: EntityKind, value: Value) {
+        if !target.subscripts.is_empty() {
+            return self.set_element(target, Some(kind), value);
+        }
+        let kind = match value {
+            Value::Poison => BindingKind::Poison,
+            value => BindingKind::Entity(kind, value),
+        };
+        self.scope.set(target.name.upper(), Binding { kind, declared: target.name.span });
+    }
+
+    /// Sets `name(i)`: a variable, or a declared thing of `kind`.
+    fn set_element(&mut self, target: &Target, kind: Option<EntityKind>, value: Value) {
+        let Some(subscripts) = self.subscripts(&target.subscripts) else { return self.scope.poison(&target.name) };
+        let name = &target.name;
+        let key = name.upper();
+        if self.scope.get(&key).is_none() {
+            if !self.check_reserved(name) || !self.room_for_names() {
+                return;
+            }
+            let array = BindingKind::Array(Rc::new(Array::default()));
+            self.scope.set(key.clone(), Binding { kind: array, declared: name.span });
+        }
+        let Some(binding) = self.scope.get(&key) else { return };
+        let declared = binding.declared;
+        let array = match &binding.kind {
+            BindingKind::Array(array) => array,
+            BindingKind::Poison => return,
+            other => {
+                let message = format!("{} is {} and not subscripted", name.text, what(other));
+                self.report(Diagnostic::new(&codes::SUBSCRIPT, name.span, message).label(declared, "declared here"));
+                return;
+            }
+        };
+        let (size, old) = (array.size, array.items.get(&subscripts).cloned());
+        if !self.check_size(name, size, declared, &subscripts) || !self.may_replace(name, &subscripts, old.as_ref(), kind) {
+            return;
+        }
+        if old.is_none() && self.room_for_names() {
+            self.scope.count_element();
+        }
+        if let Some(Binding { kind: BindingKind::Array(array), .. }) = self.scope.get_mut(&key) {
+            Rc::make_mut(array).items.insert(subscripts, Element { value, declared: name.span, kind });
+        }
+    }
+
+    fn may_replace(&mut self, name: &Name, subscripts: &[i64], old: Option<&Element>, kind: Option<EntityKind>) -> bool {
+        let Some(old) = old else { return true };
+        if (old.kind.is_none() && kind.is_none()) || old.declared == name.span || matches!(old.value, Value::Poison) {
+            return true;
+        }
+        let what = old.kind.map_or("a variable", EntityKind::name);
+        let message = format!("{}({}) is {what} already", name.text, shown(subscripts));
+        self.report(Diagnostic::new(&codes::ALREADY_DECLARED, name.span, message).label(old.declared, "first here"));
+        false
+    }
+
+    fn check_size(&mut self, name: &Name, size: Option<i64>, declared: Span, subscripts: &[i64]) -> bool {
+        let largest = size.unwrap_or(i64::MAX);
+        if subscripts.first().is_none_or(|&s| s >= 1 && s <= largest) {
+            return true;
+        }
+        let message = format!("{} has no element {}", name.text, shown(subscripts));
+        let problem = Diagnostic::new(&codes::SUBSCRIPT, name.span, message);
+        let problem = match size {
+            Some(size) => problem.label(declared, format!("its subscripts run from 1 to {size}")),
+            None => problem.note("subscripts start at 1"),
+        };
+        self.report(problem);
+        false
+    }
+
+    /// The subscripts as whole numbers: as in APT, what is behind the point does not count.
+    fn subscripts(&mut self, exprs: &[Expr]) -> Option<Vec<i64>> {
+        let mut result = Vec::new();
+        for expr in exprs {
+            match self.evaluate(expr) {
+                Value::Number(q) if q.is_bare() && q.value.abs() < 1e15 => {
+                    #[allow(clippy::cast_possible_truncation)]
+                    result.push((q.value + SUBSCRIPT_SLACK).floor() as i64);
+                }
+                Value::Poison => return None,
+                other => {
+                    let message = format!("a subscript is a pure number, not {}", other.kind_name());
+                    self.report(Diagnostic::new(&codes::SUBSCRIPT, expr.span, message));
+                    return None;
+                }
+            }
+        }
+        Some(result)
+    }
+
+    /// The value of `name(i)`.
+    pub(super) fn element(&mut self, name: &Name, array: &Array, declared: Span, args: &[Expr]) -> Value {
+        let Some(subscripts) = self.subscripts(args) else { return Value::Poison };
+        if !self.check_size(name, array.size, declared, &subscripts) {
+            return Value::Poison;
+        }
+        if let Some(element) = array.items.get(&subscripts) {
+            return element.value.clone();
+        }
+        let message = format!("{}({}) has not been set", name.text, shown(&subscripts));
+        self.report(Diagnostic::new(&codes::SUBSCRIPT, name.span, message).label(declared, "subscripted here"));
+        Value::Poison
+    }
+}
+
+/// A subscript this little below a whole number is that number.
+const SUBSCRIPT_SLACK: f64 = 1e-9;
+
+fn shown(subscripts: &[i64]) -> String {
+    subscripts.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
+}
+
+/// What a name stands for, with its article.
+fn what(kind: &BindingKind) -> &'static str {
+    match kind {
+        BindingKind::Variable(_) => "a variable",
+        BindingKind::Parameter(_) => "a parameter",
+        BindingKind::Entity(kind, _) => kind.name(),
+        BindingKind::Array(_) => "a subscripted name",
+        BindingKind::Macro(_) => "a macro",
+        BindingKind::Poison => "something",
+    }
+}

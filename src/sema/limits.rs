@@ -1,0 +1,22 @@
+//! Limits that keep any program from taking long or much memory.
+
+/// Passes of one loop.
+pub const LOOP_PASSES: u64 = 1_000_000;
+/// Statements carried out in all.
+pub const STATEMENTS: u64 = 2_000_000;
+/// Macros that call one another.
+pub const CALL_DEPTH: usize = 64;
+/// Files that include one another.
+pub const INCLUDE_DEPTH: usize = 32;
+/// Steps of the evaluated program.
+pub const STEPS: usize = 1_000_000;
+/// Cams, tools, stocks and curves.
+pub const ENTITIES: usize = 100_000;
+/// Names, subscripted ones counted singly.
+pub const NAMES: usize = 1_000_000;
+/// Bytes of source text, included files counted.
+pub const SOURCE_BYTES: usize = 64 * 1024 * 1024;
+/// Different messages about one program.
+pub const MESSAGES: usize = 500;
+/// Rows of a table of lifts.
+pub const TABLE_ROWS: usize = 100_000;

@@ -1,0 +1,108 @@
+//! Point-to-point motion.
+
+use crate::diag::Diagnostic;
+use crate::diag::codes::semantics as codes;
+use crate::geom::Point3;
+use crate::ir::{Spindle, StepKind};
+use crate::source::Span;
+use crate::units::Dim;
+
+use super::Analyser;
+use super::arguments::{Matched, Typed};
+use super::process::Setting;
+
+impl Analyser<'_> {
+    /// The point of `FROM` or `GOTO`, mm.
+    fn target(m: &Matched) -> Option<[f64; 3]> {
+        match m.vector("point") {
+            Some(v) => Some(v.v),
+            None => Some([m.number("x")?, m.number("y")?, m.number("z").unwrap_or(0.0)]),
+        }
+    }
+
+    pub(super) fn from(&mut self, m: &Matched) {
+        let Some(p) = Self::target(m) else { return };
+        self.state.position = Some(p);
+        self.step(StepKind::From(Point3::from(p)));
+    }
+
+    pub(super) fn goto(&mut self, m: &Matched, span: Span) {
+        let Some(p) = Self::target(m) else { return };
+        self.feed_of_move(m, span);
+        self.move_to(p, m.word);
+    }
+
+    pub(super) fn godlta(&mut self, m: &Matched, span: Span) {
+        let by = match m.vector("vector") {
+            Some(v) => {
+                let Some(landed) = v.land(Dim::LENGTH, self.unit()) else {
+                    let message = format!("GODLTA moves by lengths, and this is a vector of another dimension: {}", v.show(self.unit()));
+                    return self.report(Diagnostic::new(&codes::WRONG_DIMENSION, m.span("vector"), message));
+                };
+                self.note_bare(v, m.span("vector"));
+                landed.v
+            }
+            None => {
+                [m.number("dx").unwrap_or(0.0), m.number("dy").unwrap_or(0.0), m.number("dz").unwrap_or(0.0)]
+            }
+        };
+        let Some(p) = self.state.position else {
+            if !self.state.lost {
+                let problem = Diagnostic::new(
+                    &codes::NO_POSITION,
+                    m.word,
+                    "GODLTA counts from where the cutter is, and that is not known yet",
+                )
+                .help("write FROM or GOTO before it");
+                self.report(problem);
+            }
+            return;
+        };
+        self.feed_of_move(m, span);
+        self.move_to([p[0] + by[0], p[1] + by[1], p[2] + by[2]], m.word);
+    }
+
+    /// The feed written behind the coordinates.
+    fn feed_of_move(&mut self, m: &Matched, span: Span) {
+        let found = m.get("feed").map(|f| (f.typed.clone(), f.span));
+        if let Some((Typed::Quantity(q), at)) = found
+            && let Some(feed) = self.feed(q, None, at)
+        {
+            self.set_feed(feed, span);
+        }
+    }
+
+    fn move_to(&mut self, p: [f64; 3], at: Span) {
+        let rapid = core::mem::take(&mut self.state.rapid);
+        if !rapid {
+            self.needs_feed("GOTO", at);
+        }
+        self.state.position = Some(p);
+        self.step(StepKind::Goto { to: Point3::from(p), rapid });
+    }
+
+    /// Reports that a cut has no feed.
+    pub(super) fn needs_feed(&mut self, what: &str, at: Span) {
+        if matches!(self.state.feed, Setting::Unset) {
+            let message = format!("{what} moves at feed, and no feed is given");
+            self.report(
+                Diagnostic::new(&codes::NO_FEED, at, message).help("write `FEDRAT/ 300` before it, or RAPID for a rapid move"),
+            );
+            self.state.feed = Setting::Unknown;
+        }
+    }
+
+    /// Reports that a cut has no running spindle.
+    pub(super) fn needs_spindle(&mut self, what: &str, at: Span) {
+        let problem = match self.state.spindle {
+            Setting::Unset => Diagnostic::new(&codes::NO_SPINDLE, at, format!("{what} cuts, and the spindle does not run")),
+            Setting::Set(Spindle::Off, off) => {
+                Diagnostic::new(&codes::NO_SPINDLE, at, format!("{what} cuts, and the spindle is off"))
+                    .label(off, "switched off here")
+            }
+            _ => return,
+        };
+        self.report(problem.help("write `SPINDL/ 1200` before it"));
+        self.state.spindle = Setting::Unknown;
+    }
+}
