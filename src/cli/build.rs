@@ -193,7 +193,7 @@ impl Planned {
 fn text_of(stage: Stage, build: &Build, output: Option<&Output>) -> Option<String> {
     match stage {
         Stage::Ast => build.ast.as_ref().map(|ast| syntax::print::print(ast, &build.sources)),
-        Stage::Ir => None,
+        Stage::Ir => build.ir.as_ref().map(|ir| crate::ir::print::print(ir, &build.sources)),
         Stage::Cl => build.cl.as_ref().map(crate::cl::print::print),
         Stage::Target => output?.target.as_ref().map(crate::target::print::print),
         Stage::Nc => output?.proven.as_ref().map(|p| p.text().to_owned()),

@@ -13,7 +13,7 @@ use crate::syntax::{self, ast};
 use crate::target::TargetProgram;
 use crate::units::LengthUnit;
 use crate::verify::Proven;
-use crate::{ir, plan};
+use crate::{ir, plan, sema};
 
 mod targets;
 
@@ -112,8 +112,10 @@ fn stages(build: &mut Build, file: FileId, files: &dyn FileProvider, options: &O
     let text = build.sources.file(file).text.clone();
     let tree = syntax::parse(file, &text, sink);
     if options.keep_ast {
-        build.ast = Some(tree);
+        build.ast = Some(tree.clone());
     }
+    let evaluation = sema::Options { defines: options.defines.clone() };
+    build.ir = sema::analyse_tree(tree, &mut build.sources, files, &evaluation, sink);
     back(build, files, options, sink);
 }
 

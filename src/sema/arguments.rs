@@ -111,7 +111,11 @@ impl Matched {
     /// Where the value of this name stands; the major word without one.
     pub fn span(&self, name: &str) -> Span {
         let values = self.found.iter().filter(|f| f.name == name);
-        values.clone().find(|f| !matches!(f.typed, Typed::Word(_))).or(values.clone().next()).map_or(self.word, |f| f.span)
+        values
+            .clone()
+            .find(|f| !matches!(f.typed, Typed::Word(_)))
+            .or(values.clone().next())
+            .map_or(self.word, |f| f.span)
     }
 }
 
@@ -153,8 +157,11 @@ impl Analyser<'_> {
 
     fn no_arguments(&mut self, work: &mut Work<'_, '_>) {
         if let Some(first) = work.tokens.first() {
-            let problem =
-                Diagnostic::new(&codes::TOO_MANY, first.span, format!("{} takes no values", work.statement.word));
+            let problem = Diagnostic::new(
+                &codes::TOO_MANY,
+                first.span,
+                format!("{} takes no values", work.statement.word),
+            );
             self.fail(work, problem);
         }
     }
@@ -168,7 +175,8 @@ impl Analyser<'_> {
             if !matches!(token.kind, TokenKind::Unknown) || named.get(i).copied().unwrap_or(false) {
                 continue;
             }
-            let problem = self.unknown_argument(work.statement, token, &Expected::at(work.statement, work.tokens, i));
+            let problem =
+                self.unknown_argument(work.statement, token, &Expected::at(work.statement, work.tokens, i));
             self.fail(work, problem);
             any = true;
         }
@@ -181,7 +189,7 @@ impl Analyser<'_> {
         let near_word = did_you_mean(&text, expected.words.iter().copied());
         match token.name {
             Some(name) if near_word.is_none() && !expected.slots.is_empty() => {
-                let problem = self.unknown_name(name, core::iter::empty());
+                let problem = self.unknown_name(name);
                 problem.note(format!("{} takes {} here", statement.word, expected.text()))
             }
             _ => forms::unknown_minor(statement, &text, token.span, &expected.words),
@@ -203,9 +211,10 @@ impl Analyser<'_> {
             (TokenKind::Word(w), _) if !work.statement.has_minor_word(w) => {
                 self.unknown_argument(work.statement, token, &expected)
             }
-            (TokenKind::Word(_), Some(before)) if before.word().is_some() && !expected.slots.is_empty() => self
-                .missing(work.statement, form, before.span, &expected)
-                .label(token.span, format!("{} stands here instead", token.describe())),
+            (TokenKind::Word(_), Some(before)) if before.word().is_some() && !expected.slots.is_empty() => {
+                self.missing(work.statement, form, before.span, &expected)
+                    .label(token.span, format!("{} stands here instead", token.describe()))
+            }
             _ => {
                 let message = format!("{word} takes {} here, not {}", expected.text(), token.describe());
                 self.wrong_kind(message, token)
@@ -243,7 +252,8 @@ impl Analyser<'_> {
             match item {
                 Item::Word(name, choices) => {
                     if let Some(token) = work.tokens.get(i) {
-                        let word = choices.iter().find(|c| token.word() == Some(c.word)).map_or("", |c| c.word);
+                        let word =
+                            choices.iter().find(|c| token.word() == Some(c.word)).map_or("", |c| c.word);
                         work.found.push(Found { name, span: token.span, typed: Typed::Word(word) });
                     }
                     i += 1;
@@ -302,7 +312,8 @@ impl Analyser<'_> {
         given.push((option, word, span));
         let Some((_, other, first)) = first.filter(|_| !form.ordered) else { return };
         let problem = if other == word {
-            Diagnostic::new(&codes::DOUBLED_WORD, span, format!("{word} is given twice")).label(first, "first here")
+            Diagnostic::new(&codes::DOUBLED_WORD, span, format!("{word} is given twice"))
+                .label(first, "first here")
         } else {
             Diagnostic::new(&codes::WORDS_EXCLUDE, span, format!("{word} and {other} exclude each other"))
                 .label(first, format!("{other} is given here"))
@@ -338,7 +349,8 @@ impl Analyser<'_> {
                     _ => return i,
                 },
                 Item::Word(name, choices) => {
-                    let chosen = token.and_then(|t| choices.iter().find(|c| t.word() == Some(c.word)).map(|c| (t, c)));
+                    let chosen =
+                        token.and_then(|t| choices.iter().find(|c| t.word() == Some(c.word)).map(|c| (t, c)));
                     let Some((token, choice)) = chosen else {
                         let words: Vec<&str> = choices.iter().map(|c| c.word).collect();
                         return self.missing_word(work, last, &words, i);
@@ -353,7 +365,13 @@ impl Analyser<'_> {
         i
     }
 
-    fn missing_value(&mut self, work: &mut Work<'_, '_>, (word, span): (&str, Span), slot: &Slot, token: Option<&Token<'_>>) {
+    fn missing_value(
+        &mut self,
+        work: &mut Work<'_, '_>,
+        (word, span): (&str, Span),
+        slot: &Slot,
+        token: Option<&Token<'_>>,
+    ) {
         let mut problem = Diagnostic::new(
             &codes::MISSING_VALUE,
             span,
@@ -366,10 +384,19 @@ impl Analyser<'_> {
         self.fail(work, problem);
     }
 
-    fn missing_word(&mut self, work: &mut Work<'_, '_>, (word, span): (&str, Span), words: &[&str], at: usize) -> usize {
+    fn missing_word(
+        &mut self,
+        work: &mut Work<'_, '_>,
+        (word, span): (&str, Span),
+        words: &[&str],
+        at: usize,
+    ) -> usize {
         let names: Vec<String> = words.iter().map(|w| (*w).to_owned()).collect();
         match work.tokens.get(at) {
-            Some(token) if token.name.is_some() && !token.word().is_some_and(|w| work.statement.has_minor_word(w)) => {
+            Some(token)
+                if token.name.is_some()
+                    && !token.word().is_some_and(|w| work.statement.has_minor_word(w)) =>
+            {
                 let problem = forms::unknown_minor(work.statement, &forms::written(token), token.span, words);
                 self.fail(work, problem);
                 at + 1
@@ -409,7 +436,11 @@ impl Analyser<'_> {
                     token.span,
                     format!("{w} does not go with this form of {word} ({what})"),
                 );
-                if options.is_empty() { problem } else { problem.note(format!("its words are {}", options.join(", "))) }
+                if options.is_empty() {
+                    problem
+                } else {
+                    problem.note(format!("its words are {}", options.join(", ")))
+                }
             }
             TokenKind::Word(_) | TokenKind::Unknown => {
                 let text = forms::written(token);
@@ -438,7 +469,12 @@ impl Analyser<'_> {
         self.fail(work, problem);
     }
 
-    fn required(&mut self, work: &mut Work<'_, '_>, form: &'static Form, given: &[(&'static Choices, &'static str, Span)]) {
+    fn required(
+        &mut self,
+        work: &mut Work<'_, '_>,
+        form: &'static Form,
+        given: &[(&'static Choices, &'static str, Span)],
+    ) {
         for option in form.options {
             if !option.required || given.iter().any(|(o, ..)| core::ptr::eq(*o, option)) {
                 continue;
@@ -455,7 +491,13 @@ impl Analyser<'_> {
     }
 
     /// Checks a value against its slot and keeps it.
-    fn accept(&mut self, work: &mut Work<'_, '_>, word: Option<&str>, slot: &'static Slot, token: &Token<'_>) {
+    fn accept(
+        &mut self,
+        work: &mut Work<'_, '_>,
+        word: Option<&str>,
+        slot: &'static Slot,
+        token: &Token<'_>,
+    ) {
         if token.is_poison() {
             return;
         }
@@ -481,7 +523,9 @@ impl Analyser<'_> {
         }
         match (&token.kind, slot.kind) {
             (TokenKind::Binding(name, value), _) => Ok(Typed::Binding((*name).clone(), (*value).clone())),
-            (TokenKind::Word(law), Kind::Law) => Ok(Typed::Law(if law == POLY { None } else { Law::by_name(law) })),
+            (TokenKind::Word(law), Kind::Law) => {
+                Ok(Typed::Law(if law == POLY { None } else { Law::by_name(law) }))
+            }
             (TokenKind::Value(value), kind) => self.typed_value(statement, word, slot, kind, (value, token)),
             _ => Err(Box::new(self.misfit(statement, word, slot, token))),
         }
@@ -513,10 +557,16 @@ impl Analyser<'_> {
                 self.quantity(statement, word, slot, (*q, token.span), fits)
             }
             (Value::Number(q), Kind::Feed) => {
-                let fits = q.is_bare()
-                    || [Dim::FEED, Dim::FEED_PER_REV, Dim::FEED_PER_TOOTH].contains(&q.dim);
+                let fits =
+                    q.is_bare() || [Dim::FEED, Dim::FEED_PER_REV, Dim::FEED_PER_TOOTH].contains(&q.dim);
                 if fits && q.value <= 0.0 {
-                    return Err(Box::new(self.out_of_range(statement, word, slot, (*q, token.span), Range::Positive)));
+                    return Err(Box::new(self.out_of_range(
+                        statement,
+                        word,
+                        slot,
+                        (*q, token.span),
+                        Range::Positive,
+                    )));
                 }
                 self.quantity(statement, word, slot, (*q, token.span), fits)
             }
@@ -526,7 +576,12 @@ impl Analyser<'_> {
                     self.note_bare(*v, token.span);
                     Ok(Typed::Vector(landed))
                 }
-                None => Err(Box::new(self.wrong_dimension(statement, word, slot, (Quantity::new(v.v[0], v.dim), token.span)))),
+                None => Err(Box::new(self.wrong_dimension(
+                    statement,
+                    word,
+                    slot,
+                    (Quantity::new(v.v[0], v.dim), token.span),
+                ))),
             },
             (Value::Vector(v), Kind::Vector) => Ok(Typed::Vector(*v)),
             (Value::Entity(entity), Kind::Entity(kinds)) if kinds.contains(&entity.kind()) => {
@@ -554,7 +609,11 @@ impl Analyser<'_> {
         q: (Quantity, Span),
         fits: bool,
     ) -> Result<Typed, Box<Diagnostic>> {
-        if fits { Ok(Typed::Quantity(q.0)) } else { Err(Box::new(self.wrong_dimension(statement, word, slot, q))) }
+        if fits {
+            Ok(Typed::Quantity(q.0))
+        } else {
+            Err(Box::new(self.wrong_dimension(statement, word, slot, q)))
+        }
     }
 
     fn in_slot(
@@ -589,7 +648,8 @@ impl Analyser<'_> {
         }
         if q.value.fract() != 0.0 || q.value < f64::from(min) || q.value > f64::from(max) {
             let place = place(statement, word, slot);
-            let message = format!("{place} is a whole number from {min} to {max}, and this is {}", number(q.value));
+            let message =
+                format!("{place} is a whole number from {min} to {max}, and this is {}", number(q.value));
             return Err(Box::new(Diagnostic::new(&codes::OUT_OF_RANGE, span, message)));
         }
         Ok(q.value)
@@ -608,7 +668,13 @@ impl Analyser<'_> {
         Diagnostic::new(&codes::OUT_OF_RANGE, span, message).note(format!("{}: {}", slot.name, slot.help))
     }
 
-    fn wrong_dimension(&self, statement: &Statement, word: Option<&str>, slot: &Slot, (q, span): (Quantity, Span)) -> Diagnostic {
+    fn wrong_dimension(
+        &self,
+        statement: &Statement,
+        word: Option<&str>,
+        slot: &Slot,
+        (q, span): (Quantity, Span),
+    ) -> Diagnostic {
         let message = format!(
             "{} is {}, and {} is {}",
             place(statement, word, slot),
@@ -620,16 +686,26 @@ impl Analyser<'_> {
     }
 
     /// An argument that cannot stand in a slot.
-    fn misfit(&self, statement: &Statement, word: Option<&str>, slot: &Slot, token: &Token<'_>) -> Diagnostic {
+    fn misfit(
+        &self,
+        statement: &Statement,
+        word: Option<&str>,
+        slot: &Slot,
+        token: &Token<'_>,
+    ) -> Diagnostic {
         match (&token.kind, slot.kind) {
             (TokenKind::Word(_) | TokenKind::Unknown, Kind::Law) => self.unknown_law(statement, token),
             (TokenKind::Unknown, _) => match token.name {
-                Some(name) => self.unknown_name(name, core::iter::empty()),
+                Some(name) => self.unknown_name(name),
                 None => Diagnostic::new(&codes::UNKNOWN_NAME, token.span, "unknown name"),
             },
             _ => {
-                let message =
-                    format!("{} is {}, not {}", place(statement, word, slot), forms::describe(slot.kind), token.describe());
+                let message = format!(
+                    "{} is {}, not {}",
+                    place(statement, word, slot),
+                    forms::describe(slot.kind),
+                    token.describe()
+                );
                 self.wrong_kind(message, token)
             }
         }
@@ -637,9 +713,13 @@ impl Analyser<'_> {
 
     fn unknown_law(&self, statement: &Statement, token: &Token<'_>) -> Diagnostic {
         let text = forms::written(token);
-        let problem =
-            Diagnostic::new(&codes::UNKNOWN_MINOR, token.span, format!("{} knows no motion law {text}", statement.word));
-        let names = Law::all().iter().flat_map(|l| core::iter::once(l.name()).chain(l.aliases().iter().copied()));
+        let problem = Diagnostic::new(
+            &codes::UNKNOWN_MINOR,
+            token.span,
+            format!("{} knows no motion law {text}", statement.word),
+        );
+        let names =
+            Law::all().iter().flat_map(|l| core::iter::once(l.name()).chain(l.aliases().iter().copied()));
         match did_you_mean(&text, names.chain([POLY])) {
             Some(near) => problem.help(format!("did you mean `{near}`?")),
             None => {

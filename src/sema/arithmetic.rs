@@ -63,7 +63,9 @@ impl Analyser<'_> {
                 Some((a, b)) => a.value.partial_cmp(&b.value),
                 None => return Value::Poison,
             },
-            (Value::Text(a) | Value::Word(a), Value::Text(b) | Value::Word(b)) if is_equality(op) => Some(a.cmp(b)),
+            (Value::Text(a) | Value::Word(a), Value::Text(b) | Value::Word(b)) if is_equality(op) => {
+                Some(a.cmp(b))
+            }
             (Value::Truth(a), Value::Truth(b)) if is_equality(op) => Some(a.cmp(b)),
             _ => return self.wrong_operands("compared with", op_span, left, right),
         };
@@ -106,13 +108,23 @@ impl Analyser<'_> {
         };
         if pair.is_none() {
             let message = format!("{} and {} do not go together", article(a.dim), article(b.dim));
-            let (a, b) = (format!("{}: {}", self.show(a), a.dim.name()), format!("{}: {}", self.show(b), b.dim.name()));
-            self.report(Diagnostic::new(&codes::DIMENSIONS_DIFFER, at, message).label(a_span, a).label(b_span, b));
+            let (a, b) = (
+                format!("{}: {}", self.show(a), a.dim.name()),
+                format!("{}: {}", self.show(b), b.dim.name()),
+            );
+            self.report(
+                Diagnostic::new(&codes::DIMENSIONS_DIFFER, at, message).label(a_span, a).label(b_span, b),
+            );
         }
         pair
     }
 
-    fn level_vectors(&mut self, at: Span, left: (Vector, Span), right: (Vector, Span)) -> Option<(Vector, Vector)> {
+    fn level_vectors(
+        &mut self,
+        at: Span,
+        left: (Vector, Span),
+        right: (Vector, Span),
+    ) -> Option<(Vector, Vector)> {
         let ((a, a_span), (b, b_span)) = (left, right);
         let (ra, rb) = (Quantity::new(1.0, a.dim), Quantity::new(1.0, b.dim));
         self.level(at, (ra, a_span), (rb, b_span))?;
@@ -127,13 +139,15 @@ impl Analyser<'_> {
                 Some((a, b)) => self.finite(op_span, Quantity::new(a.value + sign * b.value, a.dim)),
                 None => Value::Poison,
             },
-            (Value::Vector(a), Value::Vector(b)) => match self.level_vectors(op_span, (*a, left.1), (*b, right.1)) {
-                Some((a, b)) => {
-                    let v = [0, 1, 2].map(|i| a.v[i] + sign * b.v[i]);
-                    self.finite_vector(op_span, Vector { v, dim: a.dim })
+            (Value::Vector(a), Value::Vector(b)) => {
+                match self.level_vectors(op_span, (*a, left.1), (*b, right.1)) {
+                    Some((a, b)) => {
+                        let v = [0, 1, 2].map(|i| a.v[i] + sign * b.v[i]);
+                        self.finite_vector(op_span, Vector { v, dim: a.dim })
+                    }
+                    None => Value::Poison,
                 }
-                None => Value::Poison,
-            },
+            }
             _ => {
                 let verb = if op == BinaryOp::Add { "added to" } else { "reduced by" };
                 self.wrong_operands(verb, op_span, left, right)
@@ -147,10 +161,12 @@ impl Analyser<'_> {
                 Some(dim) => self.finite(op_span, Quantity::new(a.value * b.value, dim)),
                 None => self.odd_dimension(op_span),
             },
-            (Value::Number(k), Value::Vector(v)) | (Value::Vector(v), Value::Number(k)) => match k.dim.times(v.dim) {
-                Some(dim) => self.finite_vector(op_span, Vector { v: v.v.map(|x| x * k.value), dim }),
-                None => self.odd_dimension(op_span),
-            },
+            (Value::Number(k), Value::Vector(v)) | (Value::Vector(v), Value::Number(k)) => {
+                match k.dim.times(v.dim) {
+                    Some(dim) => self.finite_vector(op_span, Vector { v: v.v.map(|x| x * k.value), dim }),
+                    None => self.odd_dimension(op_span),
+                }
+            }
             (Value::Vector(_), Value::Vector(_)) => {
                 let at = op_span;
                 self.report(
@@ -164,7 +180,9 @@ impl Analyser<'_> {
     }
 
     fn quotient(&mut self, op_span: Span, left: &Placed, right: &Placed) -> Value {
-        let Value::Number(b) = right.0 else { return self.wrong_operands("divided by", op_span, left, right) };
+        let Value::Number(b) = right.0 else {
+            return self.wrong_operands("divided by", op_span, left, right);
+        };
         if b.value == 0.0 && matches!(left.0, Value::Number(_) | Value::Vector(_)) {
             let divided = match &left.0 {
                 Value::Number(a) => self.show(*a),
@@ -172,7 +190,8 @@ impl Analyser<'_> {
             };
             let remark = format!("this is {}", self.show(b));
             self.report(
-                Diagnostic::new(&codes::DIVISION_BY_ZERO, right.1, format!("{divided} is divided by zero")).at(remark),
+                Diagnostic::new(&codes::DIVISION_BY_ZERO, right.1, format!("{divided} is divided by zero"))
+                    .at(remark),
             );
             return Value::Poison;
         }

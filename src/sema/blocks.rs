@@ -161,7 +161,8 @@ impl Matcher<'_> {
         open.branches.push(i);
         open.has_else |= word == "ELSE";
         if let (Some(first), Some(span)) = (first_else, self.span(i)) {
-            let mut problem = Diagnostic::new(&codes::BLOCK, span, format!("{word} after the ELSE of the same IF"));
+            let mut problem =
+                Diagnostic::new(&codes::BLOCK, span, format!("{word} after the ELSE of the same IF"));
             if let Some(first) = self.span(first) {
                 problem = problem.label(first, "the ELSE");
             }
@@ -259,8 +260,11 @@ fn labels(
         let Some(label) = &statement.jump_label else { continue };
         let arena = arenas.get(i).copied().flatten();
         if let Some(first) = labels.insert((arena, label.upper()), i) {
-            let mut problem =
-                Diagnostic::new(&codes::JUMP, label.span, format!("the jump label {} stands here twice", label.text));
+            let mut problem = Diagnostic::new(
+                &codes::JUMP,
+                label.span,
+                format!("the jump label {} stands here twice", label.text),
+            );
             if let Some(first) = statements.get(first).and_then(|s| s.jump_label.as_ref()) {
                 problem = problem.label(first.span, "first here");
             }

@@ -47,15 +47,16 @@ impl Analyser<'_> {
 
     fn check_number(&mut self, m: &Matched, number: u32, name: &str) -> Option<()> {
         let here = self.here;
-        let other = self.program.tools.iter().map(|(_, t)| t).find(|t| t.number == Some(number) && t.name != name)?;
-        let (other, span) = (other.name.clone(), self.program.origins[other.origin].span);
+        let taken =
+            self.program.tools.iter().map(|(_, t)| t).find(|t| t.number == Some(number) && t.name != name);
+        let Some((other, span)) = taken.map(|t| (t.name.clone(), self.program.origins[t.origin].span)) else {
+            return Some(());
+        };
         if span == here {
             return Some(());
         }
         let message = format!("{other} has the tool number {number} already");
-        self.report(
-            Diagnostic::new(&codes::ALREADY_DECLARED, m.span("number"), message).label(span, format!("{other}")),
-        );
+        self.report(Diagnostic::new(&codes::ALREADY_DECLARED, m.span("number"), message).label(span, other));
         None
     }
 
@@ -70,7 +71,9 @@ impl Analyser<'_> {
                         self.show_length(d / 2.0),
                         self.show_length(r)
                     );
-                    self.report(Diagnostic::new(&codes::CUTTER_SHAPE, m.span("r"), message).help("leave it out"));
+                    self.report(
+                        Diagnostic::new(&codes::CUTTER_SHAPE, m.span("r"), message).help("leave it out"),
+                    );
                     return None;
                 }
                 Shape::plain(CutterKind::Ball, d, d / 2.0)
@@ -118,7 +121,10 @@ impl Analyser<'_> {
         if angle.abs() < math::PI / 2.0 {
             return Some(angle);
         }
-        let message = format!("the angle of a cutter's edge lies between -90 and 90 deg, and this is {}", show_angle(Angle::radians(angle)));
+        let message = format!(
+            "the angle of a cutter's edge lies between -90 and 90 deg, and this is {}",
+            show_angle(Angle::radians(angle))
+        );
         self.report(Diagnostic::new(&codes::CUTTER_SHAPE, m.span(name), message));
         None
     }
@@ -162,7 +168,10 @@ impl Analyser<'_> {
         } else {
             let (a, b) = (m.vector("corner")?.v, m.vector("opposite")?.v);
             if let Some(axis) = (0..3).find(|&i| a[i] == b[i]) {
-                let message = format!("a block has an extent in {}; both corners are at the same", ["x", "y", "z"][axis]);
+                let message = format!(
+                    "a block has an extent in {}; both corners are at the same",
+                    ["x", "y", "z"][axis]
+                );
                 self.report(Diagnostic::new(&codes::OUT_OF_RANGE, m.span("opposite"), message));
                 return None;
             }

@@ -25,12 +25,14 @@ impl Analyser<'_> {
         };
         match statement.usage {
             Usage::Declares(kind) => self.declaration(statement, kind, command),
-            Usage::DeclaresOrActs(kind) if command.label.is_some() => self.declaration(statement, kind, command),
+            Usage::DeclaresOrActs(kind) if command.label.is_some() => {
+                self.declaration(statement, kind, command)
+            }
             Usage::DeclaresOrActs(_) => self.unlabelled_cutter(statement, command, span),
             Usage::Operation => self.operation(statement, command, span),
             Usage::Ignored => self.ignored(statement, command),
             Usage::Command | Usage::Text | Usage::Structure | Usage::Later => {
-                self.no_label(statement, command);
+                self.refuse_label(statement, command);
                 self.act(statement, command, span);
             }
         }
@@ -57,14 +59,19 @@ impl Analyser<'_> {
         if row.usage == Usage::Structure && row.forms.is_empty() {
             let message = format!("{} is not written like this", row.word);
             let first = row.example.lines().next().unwrap_or(row.word);
-            self.report(Diagnostic::new(&codes::LABEL, command.word.span, message).help(format!("write `{first}`")));
+            self.report(
+                Diagnostic::new(&codes::LABEL, command.word.span, message).help(format!("write `{first}`")),
+            );
             return None;
         }
         Some(row)
     }
 
     fn not_yet(&mut self, row: &Statement, span: Span) {
-        let message = format!("{} ({}) is a word of the language that this version does not carry out yet", row.word, row.help);
+        let message = format!(
+            "{} ({}) is a word of the language that this version does not carry out yet",
+            row.word, row.help
+        );
         self.report(Diagnostic::new(&codes::NOT_YET, span, message));
     }
 
@@ -73,10 +80,14 @@ impl Analyser<'_> {
         self.report(Diagnostic::new(&codes::IGNORED, command.word.span, message));
     }
 
-    fn no_label(&mut self, statement: &Statement, command: &Command) {
+    fn refuse_label(&mut self, statement: &Statement, command: &Command) {
         if let Some(label) = &command.label {
-            let message = format!("{} makes nothing that could be called {}", statement.word, label.name.text);
-            self.report(Diagnostic::new(&codes::LABEL, label.name.span, message).help("leave out the name and the `=`"));
+            let message =
+                format!("{} makes nothing that could be called {}", statement.word, label.name.text);
+            self.report(
+                Diagnostic::new(&codes::LABEL, label.name.span, message)
+                    .help("leave out the name and the `=`"),
+            );
             self.scope.poison(&label.name);
         }
     }
@@ -118,7 +129,8 @@ impl Analyser<'_> {
     /// The value that a declaration makes.
     fn define(&mut self, statement: &'static Statement, command: &Command, name: &str) -> Option<Value> {
         let m = self.arguments(statement, command)?;
-        if self.program.curves.len() + self.program.cams.len() + self.program.tools.len() >= limits::ENTITIES {
+        if self.program.curves.len() + self.program.cams.len() + self.program.tools.len() >= limits::ENTITIES
+        {
             self.limit(format!("the program declares more than {} things", limits::ENTITIES));
             return None;
         }
@@ -272,7 +284,11 @@ impl Analyser<'_> {
     }
 
     fn may_bind(&mut self, target: &Target) -> bool {
-        if target.subscripts.is_empty() { self.may_declare(&target.name) } else { self.check_reserved(&target.name) }
+        if target.subscripts.is_empty() {
+            self.may_declare(&target.name)
+        } else {
+            self.check_reserved(&target.name)
+        }
     }
 
     /// Reports a word of the language used as a name.
@@ -282,9 +298,7 @@ impl Analyser<'_> {
         }
         let message = format!("{} is a word of the language and cannot be a name", name.upper());
         let free = self.free_name(&name.upper());
-        self.report(
-            Diagnostic::new(&codes::RESERVED, name.span, message).help(format!("`{free}` is free")),
-        );
+        self.report(Diagnostic::new(&codes::RESERVED, name.span, message).help(format!("`{free}` is free")));
         false
     }
 
@@ -309,7 +323,9 @@ impl Analyser<'_> {
 
     /// Sets `name(i)`: a variable, or a declared thing of `kind`.
     fn set_element(&mut self, target: &Target, kind: Option<EntityKind>, value: Value) {
-        let Some(subscripts) = self.subscripts(&target.subscripts) else { return self.scope.poison(&target.name) };
+        let Some(subscripts) = self.subscripts(&target.subscripts) else {
+            return self.scope.poison(&target.name);
+        };
         let name = &target.name;
         let key = name.upper();
         if self.scope.get(&key).is_none() {
@@ -326,12 +342,16 @@ impl Analyser<'_> {
             BindingKind::Poison => return,
             other => {
                 let message = format!("{} is {} and not subscripted", name.text, what(other));
-                self.report(Diagnostic::new(&codes::SUBSCRIPT, name.span, message).label(declared, "declared here"));
+                self.report(
+                    Diagnostic::new(&codes::SUBSCRIPT, name.span, message).label(declared, "declared here"),
+                );
                 return;
             }
         };
         let (size, old) = (array.size, array.items.get(&subscripts).cloned());
-        if !self.check_size(name, size, declared, &subscripts) || !self.may_replace(name, &subscripts, old.as_ref(), kind) {
+        if !self.check_size(name, size, declared, &subscripts)
+            || !self.may_replace(name, &subscripts, old.as_ref(), kind)
+        {
             return;
         }
         if old.is_none() && self.room_for_names() {
@@ -342,14 +362,25 @@ impl Analyser<'_> {
         }
     }
 
-    fn may_replace(&mut self, name: &Name, subscripts: &[i64], old: Option<&Element>, kind: Option<EntityKind>) -> bool {
+    fn may_replace(
+        &mut self,
+        name: &Name,
+        subscripts: &[i64],
+        old: Option<&Element>,
+        kind: Option<EntityKind>,
+    ) -> bool {
         let Some(old) = old else { return true };
-        if (old.kind.is_none() && kind.is_none()) || old.declared == name.span || matches!(old.value, Value::Poison) {
+        if (old.kind.is_none() && kind.is_none())
+            || old.declared == name.span
+            || matches!(old.value, Value::Poison)
+        {
             return true;
         }
         let what = old.kind.map_or("a variable", EntityKind::name);
         let message = format!("{}({}) is {what} already", name.text, shown(subscripts));
-        self.report(Diagnostic::new(&codes::ALREADY_DECLARED, name.span, message).label(old.declared, "first here"));
+        self.report(
+            Diagnostic::new(&codes::ALREADY_DECLARED, name.span, message).label(old.declared, "first here"),
+        );
         false
     }
 
@@ -398,7 +429,9 @@ impl Analyser<'_> {
             return element.value.clone();
         }
         let message = format!("{}({}) has not been set", name.text, shown(&subscripts));
-        self.report(Diagnostic::new(&codes::SUBSCRIPT, name.span, message).label(declared, "subscripted here"));
+        self.report(
+            Diagnostic::new(&codes::SUBSCRIPT, name.span, message).label(declared, "subscripted here"),
+        );
         Value::Poison
     }
 }

@@ -35,7 +35,9 @@ impl Analyser<'_> {
                     return self.power_expression(*op_span, left, right);
                 }
                 let left = (self.evaluate(left), left.span);
-                if let (BinaryOp::And, Value::Truth(false)) | (BinaryOp::Or, Value::Truth(true)) = (op, &left.0) {
+                if let (BinaryOp::And, Value::Truth(false)) | (BinaryOp::Or, Value::Truth(true)) =
+                    (op, &left.0)
+                {
                     return left.0;
                 }
                 let right = (self.evaluate(right), right.span);
@@ -49,8 +51,11 @@ impl Analyser<'_> {
         match parse_unit(&name.text) {
             Some(unit) => self.finite(name.span, Quantity::of(value, unit)),
             None => {
-                let mut problem =
-                    Diagnostic::new(&codes::UNKNOWN_UNIT, name.span, format!("there is no unit {}", name.text));
+                let mut problem = Diagnostic::new(
+                    &codes::UNKNOWN_UNIT,
+                    name.span,
+                    format!("there is no unit {}", name.text),
+                );
                 problem = match did_you_mean(&name.text, UNIT_NAMES) {
                     Some(near) => problem.help(format!("did you mean `{near}`?")),
                     None => problem.note(format!("the units are {}", UNIT_NAMES.join(", "))),
@@ -71,7 +76,7 @@ impl Analyser<'_> {
         if vocab::is_reserved(&upper) {
             return Value::Word(Rc::from(upper));
         }
-        let problem = self.unknown_name(name, core::iter::empty());
+        let problem = self.unknown_name(name);
         self.report(problem);
         Value::Poison
     }
@@ -79,7 +84,9 @@ impl Analyser<'_> {
     /// The value of a bound name.
     pub(super) fn bound_value(&mut self, name: &Name, binding: &Binding) -> Value {
         match &binding.kind {
-            BindingKind::Variable(value) | BindingKind::Parameter(value) | BindingKind::Entity(_, value) => value.clone(),
+            BindingKind::Variable(value) | BindingKind::Parameter(value) | BindingKind::Entity(_, value) => {
+                value.clone()
+            }
             BindingKind::Poison => Value::Poison,
             BindingKind::Array(_) => {
                 let message = format!("{} is subscripted; which of its elements is meant?", name.text);
@@ -102,12 +109,14 @@ impl Analyser<'_> {
         }
     }
 
-    /// «Unknown name», with the nearest of the names in reach and of `words`.
-    pub(super) fn unknown_name<'w>(&self, name: &Name, words: impl Iterator<Item = &'w str>) -> Diagnostic {
-        let problem =
-            Diagnostic::new(&codes::UNKNOWN_NAME, name.span, format!("nothing is called {} so far", name.text));
-        let candidates: Vec<&str> = self.scope.names().chain(words).collect();
-        match did_you_mean(&name.text, candidates) {
+    /// «Unknown name», with the nearest of the names in reach.
+    pub(super) fn unknown_name(&self, name: &Name) -> Diagnostic {
+        let problem = Diagnostic::new(
+            &codes::UNKNOWN_NAME,
+            name.span,
+            format!("nothing is called {} so far", name.text),
+        );
+        match did_you_mean(&name.text, self.scope.names()) {
             Some(near) => {
                 let declared = self.scope.get(near).map(|b| b.declared);
                 let problem = problem.help(format!("did you mean `{near}`?"));
@@ -128,7 +137,8 @@ impl Analyser<'_> {
             Some((_, declared)) => {
                 let message = format!("{} is not subscripted", name.text);
                 self.report(
-                    Diagnostic::new(&codes::SUBSCRIPT, name.span, message).label(declared, "declared here without one"),
+                    Diagnostic::new(&codes::SUBSCRIPT, name.span, message)
+                        .label(declared, "declared here without one"),
                 );
                 Value::Poison
             }
@@ -142,8 +152,8 @@ impl Analyser<'_> {
     fn unknown_function(&mut self, name: &Name) -> Value {
         let message = format!("there is no function and no subscripted name {}", name.text);
         let problem = Diagnostic::new(&codes::UNKNOWN_FUNCTION, name.span, message);
-        let candidates: Vec<&str> = vocab::function_names().chain(self.scope.names()).collect();
-        let problem = match did_you_mean(&name.text, candidates) {
+        let functions = did_you_mean(&name.text, vocab::function_names());
+        let problem = match functions.or_else(|| did_you_mean(&name.text, self.scope.names())) {
             Some(near) => problem.help(format!("did you mean `{near}`?")),
             None => problem,
         };
@@ -173,7 +183,9 @@ impl Analyser<'_> {
             },
             (_, other) => {
                 let message = format!("a sign does not go with {}", other.kind_name());
-                self.report(Diagnostic::new(&codes::WRONG_OPERAND, op_span, message).label(span, other.kind_name()));
+                self.report(
+                    Diagnostic::new(&codes::WRONG_OPERAND, op_span, message).label(span, other.kind_name()),
+                );
                 Value::Poison
             }
         }
@@ -206,8 +218,11 @@ impl Analyser<'_> {
             match self.land(q, dim, span) {
                 Some(landed) => *slot = landed.value,
                 None => {
-                    let message =
-                        format!("the components of a point or vector agree: this is {}, the others are {}", article(q.dim), article(dim));
+                    let message = format!(
+                        "the components of a point or vector agree: this is {}, the others are {}",
+                        article(q.dim),
+                        article(dim)
+                    );
                     self.report(Diagnostic::new(&codes::DIMENSIONS_DIFFER, span, message));
                     return Value::Poison;
                 }
@@ -247,7 +262,8 @@ impl Analyser<'_> {
     }
 
     fn warn_chain(&mut self, span: Span, a: &Value, b: &Value, c: &Value, kept: &Value) {
-        let (Value::Number(a), Value::Number(b), Value::Number(c), Value::Number(kept)) = (a, b, c, kept) else {
+        let (Value::Number(a), Value::Number(b), Value::Number(c), Value::Number(kept)) = (a, b, c, kept)
+        else {
             return;
         };
         let other = super::arithmetic::raise(super::arithmetic::raise(a.value, b.value), c.value);

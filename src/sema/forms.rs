@@ -85,7 +85,9 @@ impl Expected {
             }
             match item_at(form, tokens, at) {
                 Some(Item::Word(_, choices)) => expected.words.extend(choices.iter().map(|c| c.word)),
-                Some(Item::Value(slot) | Item::Optional(slot) | Item::Repeat(slot, ..)) => expected.slots.push(slot),
+                Some(Item::Value(slot) | Item::Optional(slot) | Item::Repeat(slot, ..)) => {
+                    expected.slots.push(slot)
+                }
                 None => {}
             }
         }

@@ -15,9 +15,21 @@ use super::value::{Entity, Value, Vector};
 
 impl Analyser<'_> {
     /// `name(args)`.
-    pub(super) fn call_function(&mut self, function: &'static Function, name: &Name, args: &[Expr], span: Span) -> Value {
+    pub(super) fn call_function(
+        &mut self,
+        function: &'static Function,
+        name: &Name,
+        args: &[Expr],
+        span: Span,
+    ) -> Value {
         if args.len() < function.min || args.len() > function.max {
-            let message = format!("{} takes {}({}); {} given", name.text, function.name, function.signature, args.len());
+            let message = format!(
+                "{} takes {}({}); {} given",
+                name.text,
+                function.name,
+                function.signature,
+                args.len()
+            );
             self.report(Diagnostic::new(&codes::FUNCTION_ARGUMENTS, name.span, message));
             return Value::Poison;
         }
@@ -31,7 +43,12 @@ impl Analyser<'_> {
         self.function_value(function, &values, span).unwrap_or(Value::Poison)
     }
 
-    fn function_value(&mut self, function: &Function, args: &[Placed], span: Span) -> Option<Value> {
+    pub(super) fn function_value(
+        &mut self,
+        function: &Function,
+        args: &[Placed],
+        span: Span,
+    ) -> Option<Value> {
         let first = args.first()?;
         let second = args.get(1);
         let value = match function.id {
@@ -41,7 +58,7 @@ impl Analyser<'_> {
             FunctionId::Sqrt => self.square_root(first)?,
             FunctionId::Sin => Value::bare(sine(self.angle_argument(first)?)),
             FunctionId::Cos => Value::bare(sine(self.angle_argument(first)? + 90.0)),
-            FunctionId::Tan => self.tangent(first)?,
+            FunctionId::Tan => self.tangent_of(first)?,
             FunctionId::Asin => self.inverse(first, math::asin)?,
             FunctionId::Acos => self.inverse(first, math::acos)?,
             FunctionId::Atan => Value::number(math::atan(self.pure(first)?) / DEG, Dim::ANGLE),
@@ -98,8 +115,7 @@ impl Analyser<'_> {
         if let Some(landed) = self.land(q, dim, argument.1) {
             return Some(landed.value);
         }
-        let message =
-            format!("{} is wanted here, and {} is {}", article(dim), self.show(q), article(q.dim));
+        let message = format!("{} is wanted here, and {} is {}", article(dim), self.show(q), article(q.dim));
         self.report(Diagnostic::new(&codes::WRONG_DIMENSION, argument.1, message));
         None
     }
@@ -134,14 +150,17 @@ impl Analyser<'_> {
         match q.dim.power(1, 2) {
             Some(dim) => Some(Value::number(q.value.sqrt(), dim)),
             None => {
-                let message = format!("the square root of {} has no dimension; of an area it is a length", article(q.dim));
+                let message = format!(
+                    "the square root of {} has no dimension; of an area it is a length",
+                    article(q.dim)
+                );
                 self.report(Diagnostic::new(&codes::WRONG_DIMENSION, argument.1, message));
                 None
             }
         }
     }
 
-    fn tangent(&mut self, argument: &Placed) -> Option<Value> {
+    fn tangent_of(&mut self, argument: &Placed) -> Option<Value> {
         let angle = self.angle_argument(argument)?;
         let cosine = sine(angle + 90.0);
         if cosine == 0.0 {
@@ -225,8 +244,8 @@ impl Analyser<'_> {
     }
 
     fn distance(&mut self, a: &Placed, b: &Placed, span: Span) -> Option<Value> {
-        let difference =
-            self.binary(crate::syntax::ast::BinaryOp::Subtract, span, self.as_vector(a)?, self.as_vector(b)?);
+        let (a, b) = (self.as_vector(a)?, self.as_vector(b)?);
+        let difference = self.binary(crate::syntax::ast::BinaryOp::Subtract, span, a, b);
         match difference {
             Value::Vector(v) => Some(self.norm_value(v)),
             _ => None,

@@ -63,7 +63,8 @@ impl Analyser<'_> {
         }
         self.include.bytes += text.len();
         if self.include.bytes > limits::SOURCE_BYTES {
-            return self.limit(format!("the source files have more than {} bytes in all", limits::SOURCE_BYTES));
+            return self
+                .limit(format!("the source files have more than {} bytes in all", limits::SOURCE_BYTES));
         }
         if self.include.depth() >= limits::INCLUDE_DEPTH {
             return self.limit(format!("files include one another more than {} deep", limits::INCLUDE_DEPTH));
@@ -82,8 +83,11 @@ impl Analyser<'_> {
     }
 
     fn cycle(&self, position: usize, name: &str, at: Span) -> Diagnostic {
-        let mut problem =
-            Diagnostic::new(&codes::INCLUDE_CYCLE, at, format!("{name} is being read already: it includes itself"));
+        let mut problem = Diagnostic::new(
+            &codes::INCLUDE_CYCLE,
+            at,
+            format!("{name} is being read already: it includes itself"),
+        );
         for (file, span) in self.include.open.iter().skip(position + 1) {
             if let Some(span) = span {
                 problem = problem.label(*span, format!("{file} is included here"));
@@ -101,6 +105,7 @@ fn unreadable(path: &str, error: &FileError, at: Span) -> Diagnostic {
         FileError::OutsideRoot => problem(format!("{path} lies outside the project"))
             .note("a program reads nothing above its project's root"),
         FileError::NotUtf8(byte) => problem(format!("{path} is not UTF-8: byte {byte} begins no character")),
+        FileError::TooLarge(bytes) => problem(format!("{path} is larger than {bytes} bytes")),
         FileError::Other(reason) => problem(format!("{path} cannot be read: {reason}")),
     }
 }

@@ -18,5 +18,7 @@ pub const NAMES: usize = 1_000_000;
 pub const SOURCE_BYTES: usize = 64 * 1024 * 1024;
 /// Different messages about one program.
 pub const MESSAGES: usize = 500;
+/// Cams: each takes milliseconds.
+pub const CAMS: usize = 1000;
 /// Rows of a table of lifts.
 pub const TABLE_ROWS: usize = 100_000;

@@ -94,7 +94,11 @@ impl Analyser<'_> {
     }
 
     fn unknown_macro(&self, name: &Name, other: Option<Span>) -> Diagnostic {
-        let problem = Diagnostic::new(&codes::UNKNOWN_MACRO, name.span, format!("no macro is called {} so far", name.text));
+        let problem = Diagnostic::new(
+            &codes::UNKNOWN_MACRO,
+            name.span,
+            format!("no macro is called {} so far", name.text),
+        );
         if let Some(declared) = other {
             return problem.label(declared, format!("{} is something else", name.text));
         }
@@ -138,7 +142,8 @@ impl Analyser<'_> {
             if let Some(first) = frame.insert(key, Binding { declared: place, ..binding }) {
                 let message = format!("{} of {} is given twice", parameter.text, name.text);
                 self.report(
-                    Diagnostic::new(&codes::MACRO_ARGUMENTS, place, message).label(first.declared, "first here"),
+                    Diagnostic::new(&codes::MACRO_ARGUMENTS, place, message)
+                        .label(first.declared, "first here"),
                 );
             }
         }
@@ -181,7 +186,11 @@ impl Analyser<'_> {
     ) -> Option<Name> {
         let Some(wanted) = &argument.name else {
             let Some(parameter) = definition.parameters.get(index) else {
-                let message = format!("{} has {} parameters; this is one value more", name.text, definition.parameters.len());
+                let message = format!(
+                    "{} has {} parameters; this is one value more",
+                    name.text,
+                    definition.parameters.len()
+                );
                 self.report(
                     Diagnostic::new(&codes::MACRO_ARGUMENTS, argument.value.span, message)
                         .label(definition.span, "the macro"),

@@ -1,7 +1,7 @@
 //! Point-to-point motion.
 
 use crate::diag::Diagnostic;
-use crate::diag::codes::semantics as codes;
+use crate::diag::codes::{planning, semantics as codes};
 use crate::geom::Point3;
 use crate::ir::{Spindle, StepKind};
 use crate::source::Span;
@@ -36,7 +36,10 @@ impl Analyser<'_> {
         let by = match m.vector("vector") {
             Some(v) => {
                 let Some(landed) = v.land(Dim::LENGTH, self.unit()) else {
-                    let message = format!("GODLTA moves by lengths, and this is a vector of another dimension: {}", v.show(self.unit()));
+                    let message = format!(
+                        "GODLTA moves by lengths, and this is a vector of another dimension: {}",
+                        v.show(self.unit())
+                    );
                     return self.report(Diagnostic::new(&codes::WRONG_DIMENSION, m.span("vector"), message));
                 };
                 self.note_bare(v, m.span("vector"));
@@ -86,7 +89,8 @@ impl Analyser<'_> {
         if matches!(self.state.feed, Setting::Unset) {
             let message = format!("{what} moves at feed, and no feed is given");
             self.report(
-                Diagnostic::new(&codes::NO_FEED, at, message).help("write `FEDRAT/ 300` before it, or RAPID for a rapid move"),
+                Diagnostic::new(&planning::NO_FEED, at, message)
+                    .help("write `FEDRAT/ 300` before it, or RAPID for a rapid move"),
             );
             self.state.feed = Setting::Unknown;
         }
@@ -95,9 +99,13 @@ impl Analyser<'_> {
     /// Reports that a cut has no running spindle.
     pub(super) fn needs_spindle(&mut self, what: &str, at: Span) {
         let problem = match self.state.spindle {
-            Setting::Unset => Diagnostic::new(&codes::NO_SPINDLE, at, format!("{what} cuts, and the spindle does not run")),
+            Setting::Unset => Diagnostic::new(
+                &planning::SPINDLE_OFF,
+                at,
+                format!("{what} cuts, and the spindle does not run"),
+            ),
             Setting::Set(Spindle::Off, off) => {
-                Diagnostic::new(&codes::NO_SPINDLE, at, format!("{what} cuts, and the spindle is off"))
+                Diagnostic::new(&planning::SPINDLE_OFF, at, format!("{what} cuts, and the spindle is off"))
                     .label(off, "switched off here")
             }
             _ => return,

@@ -50,12 +50,14 @@ impl Analyser<'_> {
             (Value::Text(_), value @ Value::Text(_)) => value,
             (Value::Poison, _) | (_, Value::Poison) => Value::Poison,
             (other, _) => {
-                let message = format!("the default of a parameter is a number or a text, not {}", other.kind_name());
+                let message =
+                    format!("the default of a parameter is a number or a text, not {}", other.kind_name());
                 self.report(Diagnostic::new(&codes::WRONG_KIND, span, message));
                 Value::Poison
             }
         };
-        let kind = if matches!(value, Value::Poison) { BindingKind::Poison } else { BindingKind::Parameter(value) };
+        let kind =
+            if matches!(value, Value::Poison) { BindingKind::Poison } else { BindingKind::Parameter(value) };
         self.scope.set(name.upper(), Binding { kind, declared: name.span });
     }
 
@@ -74,18 +76,20 @@ impl Analyser<'_> {
         };
         let problem = match (default, value) {
             (_, None) => format!("-D {}={text}: this is no value", name.text),
-            (Value::Number(wanted), Some(Value::Number(given))) => match given.land(wanted.dim, self.unit()) {
-                Some(landed) => return Value::Number(landed),
-                // A bare default leaves the dimension to the places where the parameter is used.
-                None if wanted.is_bare() => return Value::Number(given),
-                None => format!(
-                    "-D {}={text}: {} is {}, and this is {}",
-                    name.text,
-                    name.text,
-                    article(wanted.dim),
-                    article(given.dim)
-                ),
-            },
+            (Value::Number(wanted), Some(Value::Number(given))) => {
+                match given.land(wanted.dim, self.unit()) {
+                    Some(landed) => return Value::Number(landed),
+                    // A bare default leaves the dimension to the places where the parameter is used.
+                    None if wanted.is_bare() => return Value::Number(given),
+                    None => format!(
+                        "-D {}={text}: {} is {}, and this is {}",
+                        name.text,
+                        name.text,
+                        article(wanted.dim),
+                        article(given.dim)
+                    ),
+                }
+            }
             (_, Some(value)) => return value,
         };
         self.report(Diagnostic::global(&codes::DEFINE, problem).label(name.span, "the parameter"));
@@ -103,7 +107,11 @@ impl Analyser<'_> {
         let StatementKind::Assign { value, .. } = &statement.kind else { return None };
         let plain = matches!(
             value.kind,
-            ExprKind::Number { .. } | ExprKind::Text(_) | ExprKind::Unary { .. } | ExprKind::Paren(_) | ExprKind::Binary { .. }
+            ExprKind::Number { .. }
+                | ExprKind::Text(_)
+                | ExprKind::Unary { .. }
+                | ExprKind::Paren(_)
+                | ExprKind::Binary { .. }
         );
         if sink.has_errors() || !plain {
             return None;
@@ -115,13 +123,22 @@ impl Analyser<'_> {
     }
 
     /// Checks a value against `MIN` and `MAX`, which are in the default's dimension.
-    fn limited(&mut self, name: &Name, m: &Matched, (default, span): (Quantity, Span), value: Quantity) -> Value {
+    fn limited(
+        &mut self,
+        name: &Name,
+        m: &Matched,
+        (default, span): (Quantity, Span),
+        value: Quantity,
+    ) -> Value {
         let mut sound = true;
         for (limit, word, beyond) in [("min", "less", -1.0), ("max", "more", 1.0)] {
             let found = m.found.iter().find(|f| f.name == limit && matches!(f.typed, Typed::Quantity(_)));
-            let Some((Typed::Quantity(bound), at)) = found.map(|f| (f.typed.clone(), f.span)) else { continue };
+            let Some((Typed::Quantity(bound), at)) = found.map(|f| (f.typed.clone(), f.span)) else {
+                continue;
+            };
             for (checked, whose, place) in [(default, "default", Some(span)), (value, "value", None)] {
-                let Some((bound, checked)) = self.level(at, (bound, at), (checked, span)).filter(|_| sound) else {
+                let Some((bound, checked)) = self.level(at, (bound, at), (checked, span)).filter(|_| sound)
+                else {
                     sound = false;
                     continue;
                 };
@@ -151,9 +168,15 @@ impl Analyser<'_> {
             let parameters: Vec<&str> = self
                 .scope
                 .names()
-                .filter(|n| matches!(self.scope.get(n).map(|b| &b.kind), Some(BindingKind::Parameter(_) | BindingKind::Poison)))
+                .filter(|n| {
+                    matches!(
+                        self.scope.get(n).map(|b| &b.kind),
+                        Some(BindingKind::Parameter(_) | BindingKind::Poison)
+                    )
+                })
                 .collect();
-            let problem = Diagnostic::global(&codes::DEFINE, format!("-D {name}: the program has no parameter {name}"));
+            let problem =
+                Diagnostic::global(&codes::DEFINE, format!("-D {name}: the program has no parameter {name}"));
             let problem = match did_you_mean(&name, parameters.iter().copied()) {
                 Some(near) => problem.help(format!("did you mean `{near}`?")),
                 None if parameters.is_empty() => problem.note("it has no PARAM statement"),

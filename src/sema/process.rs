@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use crate::arena::Handle;
-use crate::diag::codes::semantics as codes;
+use crate::diag::codes::{planning, semantics as codes};
 use crate::diag::{Diagnostic, did_you_mean};
 use crate::ir::{self, Band, Coolant, Feed, Spindle, StepKind, Tool};
 use crate::math::TAU;
@@ -147,8 +147,12 @@ impl Analyser<'_> {
     pub(super) fn machin(&mut self, command: &Command) {
         let mut words = command.args.iter();
         let Some(post) = words.next() else {
-            let problem = Diagnostic::new(&codes::MISSING_VALUE, command.word.span, "MACHIN wants the name of a post here")
-                .help("for example `MACHIN/ LINUXCNC`");
+            let problem = Diagnostic::new(
+                &codes::MISSING_VALUE,
+                command.word.span,
+                "MACHIN wants the name of a post here",
+            )
+            .help("for example `MACHIN/ LINUXCNC`");
             return self.report(problem);
         };
         let Some(name) = plain(&post.kind) else {
@@ -156,7 +160,8 @@ impl Analyser<'_> {
             return self.report(Diagnostic::new(&codes::WRONG_KIND, post.span, message));
         };
         let origin = self.origin(self.here);
-        let mut machine = ir::Machine { post: name.to_lowercase(), rotary: None, options: Vec::new(), origin };
+        let mut machine =
+            ir::Machine { post: name.to_lowercase(), rotary: None, options: Vec::new(), origin };
         let mut rest = words.peekable();
         while let Some(arg) = rest.next() {
             let Some(key) = plain(&arg.kind) else {
@@ -221,7 +226,10 @@ impl Analyser<'_> {
                 Some(spindle) => spindle,
                 None => {
                     let message = "SPINDL/ ON goes back to an earlier speed, and there is none";
-                    self.report(Diagnostic::new(&codes::NO_SPINDLE, m.span("state"), message).help("write `SPINDL/ 1200`"));
+                    self.report(
+                        Diagnostic::new(&planning::SPINDLE_OFF, m.span("state"), message)
+                            .help("write `SPINDL/ 1200`"),
+                    );
                     self.state.spindle = Setting::Unknown;
                     return;
                 }
@@ -239,8 +247,7 @@ impl Analyser<'_> {
     }
 
     pub(super) fn fedrat(&mut self, m: &Matched, span: Span) {
-        let Some(Typed::Quantity(q)) =
-            m.found.iter().find(|f| f.name == "feed").map(|f| f.typed.clone())
+        let Some(Typed::Quantity(q)) = m.found.iter().find(|f| f.name == "feed").map(|f| f.typed.clone())
         else {
             return;
         };
@@ -274,8 +281,13 @@ impl Analyser<'_> {
             self.unit_used = Some(at);
         }
         let Some(landed) = q.land(dim, unit) else {
-            let message =
-                format!("{} says a {}, and {} is a {}", word.unwrap_or(""), dim.name(), self.show(q), q.dim.name());
+            let message = format!(
+                "{} says a {}, and {} is a {}",
+                word.unwrap_or(""),
+                dim.name(),
+                self.show(q),
+                q.dim.name()
+            );
             self.report(Diagnostic::new(&codes::WRONG_DIMENSION, at, message));
             return None;
         };
@@ -336,8 +348,9 @@ impl Analyser<'_> {
             self.reserve(name, &value, size.span);
         }
         if command.args.is_empty() {
-            let problem = Diagnostic::new(&codes::MISSING_VALUE, command.word.span, "RESERV wants a name here")
-                .help("for example `RESERV/ P, 6`");
+            let problem =
+                Diagnostic::new(&codes::MISSING_VALUE, command.word.span, "RESERV wants a name here")
+                    .help("for example `RESERV/ P, 6`");
             self.report(problem);
         }
     }
@@ -357,7 +370,8 @@ impl Analyser<'_> {
                 return self.scope.poison(name);
             }
             other => {
-                let message = format!("the largest subscript of {} is a number, not {}", name.text, other.kind_name());
+                let message =
+                    format!("the largest subscript of {} is a number, not {}", name.text, other.kind_name());
                 self.report(Diagnostic::new(&codes::WRONG_KIND, span, message));
                 return self.scope.poison(name);
             }
@@ -365,7 +379,8 @@ impl Analyser<'_> {
         if self.may_declare(name) {
             #[allow(clippy::cast_possible_truncation)]
             let array = Array { size: Some(size as i64), ..Array::default() };
-            self.scope.set(name.upper(), Binding { kind: BindingKind::Array(Rc::new(array)), declared: name.span });
+            self.scope
+                .set(name.upper(), Binding { kind: BindingKind::Array(Rc::new(array)), declared: name.span });
         }
     }
 
@@ -398,7 +413,9 @@ impl Analyser<'_> {
 /// The word, text or number that an argument is written as.
 fn plain(kind: &ArgKind) -> Option<String> {
     match kind {
-        ArgKind::Expr(Expr { kind: ExprKind::Name(name), .. }) | ArgKind::Named { name, .. } => Some(name.text.clone()),
+        ArgKind::Expr(Expr { kind: ExprKind::Name(name), .. }) | ArgKind::Named { name, .. } => {
+            Some(name.text.clone())
+        }
         ArgKind::Expr(Expr { kind: ExprKind::Text(text), .. }) => Some(text.clone()),
         ArgKind::Expr(Expr { kind: ExprKind::Number { value, unit }, .. }) => {
             Some(format!("{value}{}", unit.as_ref().map_or("", |u| u.text.as_str())))

@@ -67,7 +67,8 @@ impl Report {
 /// Adds the macro definition and the calls, innermost first.
 fn with_calls(mut diagnostic: Diagnostic, calls: &[Call]) -> Diagnostic {
     let Some(innermost) = calls.last() else { return diagnostic };
-    diagnostic = diagnostic.label(innermost.definition, format!("in the macro {}, defined here", innermost.name));
+    diagnostic =
+        diagnostic.label(innermost.definition, format!("in the macro {}, defined here", innermost.name));
     let hidden = calls.len().saturating_sub(CALLS_SHOWN);
     for (i, call) in calls.iter().rev().enumerate() {
         if i < CALLS_SHOWN - 1 || i + 1 == calls.len() {

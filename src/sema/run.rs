@@ -63,13 +63,23 @@ impl Analyser<'_> {
     fn after_fini(&mut self, code: &Rc<Code>, at: usize, end: usize) {
         let rest = code.program.statements.get(at..end).unwrap_or(&[]);
         if let (Some(first), true) = (rest.first(), self.calls.is_empty() && self.include.depth() == 0) {
-            let problem = Diagnostic::new(&codes::AFTER_FINI, first.span, "this stands after FINI and is not carried out");
+            let problem = Diagnostic::new(
+                &codes::AFTER_FINI,
+                first.span,
+                "this stands after FINI and is not carried out",
+            );
             self.report(problem);
         }
     }
 
     /// Carries out one statement; returns where to go on if that is not the next one.
-    fn statement(&mut self, code: &Rc<Code>, statement: &Statement, at: usize, loops: &mut Vec<Loop>) -> Option<usize> {
+    fn statement(
+        &mut self,
+        code: &Rc<Code>,
+        statement: &Statement,
+        at: usize,
+        loops: &mut Vec<Loop>,
+    ) -> Option<usize> {
         let link = code.links.get(at).copied().unwrap_or(Link::None);
         match &statement.kind {
             StatementKind::Command(command) => self.command(command, statement.span),
@@ -92,15 +102,26 @@ impl Analyser<'_> {
             StatementKind::Do { variable, from, to, step } => {
                 return self.start_count(code, (variable, from, to, step.as_ref()), link, at, loops);
             }
-            StatementKind::While(condition) => return self.start_while(code, condition, true, link, at, loops),
-            StatementKind::Until(condition) => return self.start_while(code, condition, false, link, at, loops),
-            StatementKind::EndDo | StatementKind::EndWhile | StatementKind::EndUntil => return self.next_pass(link, loops),
-            StatementKind::Macro { name, parameters } => return self.define_macro(code, (name, parameters), link, at),
+            StatementKind::While(condition) => {
+                return self.start_while(code, condition, true, link, at, loops);
+            }
+            StatementKind::Until(condition) => {
+                return self.start_while(code, condition, false, link, at, loops);
+            }
+            StatementKind::EndDo | StatementKind::EndWhile | StatementKind::EndUntil => {
+                return self.next_pass(link, loops);
+            }
+            StatementKind::Macro { name, parameters } => {
+                return self.define_macro(code, (name, parameters), link, at);
+            }
             StatementKind::JumpTo(label) => return self.jump(code, label, at, loops),
             StatementKind::ArithmeticIf { value, labels } => {
                 return self.arithmetic_if(code, value, labels, at, loops);
             }
-            StatementKind::EndIf | StatementKind::TerMac | StatementKind::LoopStart | StatementKind::LoopEnd => {}
+            StatementKind::EndIf
+            | StatementKind::TerMac
+            | StatementKind::LoopStart
+            | StatementKind::LoopEnd => {}
         }
         None
     }
@@ -236,13 +257,15 @@ impl Analyser<'_> {
             None => (Quantity::bare(1.0).land(first.dim, self.unit())?.value, from.span),
         };
         if step == 0.0 {
-            let problem = Diagnostic::new(&codes::OUT_OF_RANGE, step_span, "a step of 0 never reaches the end");
+            let problem =
+                Diagnostic::new(&codes::OUT_OF_RANGE, step_span, "a step of 0 never reaches the end");
             self.report(problem);
             return None;
         }
         let passes = ((last.value - first.value) / step + COUNT_SLACK).floor() + 1.0;
         if passes > limits::LOOP_PASSES as f64 {
-            let message = format!("this loop would run {} times; the limit is {}", number(passes), limits::LOOP_PASSES);
+            let message =
+                format!("this loop would run {} times; the limit is {}", number(passes), limits::LOOP_PASSES);
             let problem = Diagnostic::new(&codes::LOOP_LIMIT, self.here, message);
             self.report(problem);
             return None;
@@ -307,7 +330,8 @@ impl Analyser<'_> {
     }
 
     fn no_label(&self, code: &Rc<Code>, arena: Option<usize>, label: &Name) -> Diagnostic {
-        let problem = Diagnostic::new(&codes::JUMP, label.span, format!("there is no jump label {} here", label.text));
+        let problem =
+            Diagnostic::new(&codes::JUMP, label.span, format!("there is no jump label {} here", label.text));
         let elsewhere = code.labels.iter().find(|((_, name), _)| *name == label.upper());
         if let Some((_, &i)) = elsewhere
             && let Some(other) = code.program.statements.get(i).and_then(|s| s.jump_label.as_ref())
@@ -316,7 +340,8 @@ impl Analyser<'_> {
                 .label(other.span, "this one stands in another loop, macro or file part")
                 .help("a jump stays inside its LOOPST … LOOPND or its macro");
         }
-        let near: Vec<&str> = code.labels.keys().filter(|(a, _)| *a == arena).map(|(_, n)| n.as_str()).collect();
+        let near: Vec<&str> =
+            code.labels.keys().filter(|(a, _)| *a == arena).map(|(_, n)| n.as_str()).collect();
         match did_you_mean(&label.text, near) {
             Some(near) => problem.help(format!("did you mean `{near}`?")),
             None => problem.help(format!("a label stands before a statement: `{}) …`", label.text)),
@@ -334,7 +359,8 @@ impl Analyser<'_> {
         let arena = code.arenas.get(at).copied().flatten();
         if labels.len() != 3 {
             let span = labels.first().map_or(selector.span, |l| l.span);
-            let message = format!("IF (…) takes three labels, for negative, zero and positive; {} given", labels.len());
+            let message =
+                format!("IF (…) takes three labels, for negative, zero and positive; {} given", labels.len());
             self.report(Diagnostic::new(&codes::JUMP, span, message));
             return self.leave_arena(code, arena);
         }

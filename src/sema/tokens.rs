@@ -97,9 +97,12 @@ fn is_law(word: &str) -> bool {
 }
 
 fn takes_laws(statement: &Statement) -> bool {
-    statement.forms.iter().flat_map(|f| f.options).flat_map(|o| o.values).any(
-        |item| matches!(item, Item::Value(slot) | Item::Optional(slot) if slot.kind == Kind::Law),
-    )
+    statement
+        .forms
+        .iter()
+        .flat_map(|f| f.options)
+        .flat_map(|o| o.values)
+        .any(|item| matches!(item, Item::Value(slot) | Item::Optional(slot) if slot.kind == Kind::Law))
 }
 
 impl Analyser<'_> {
@@ -112,7 +115,9 @@ impl Analyser<'_> {
         let (name, kind) = match &arg.kind {
             ArgKind::Named { name, value } => (None, TokenKind::Binding(name, value)),
             ArgKind::Nested(command) => (None, TokenKind::Value(self.nested(command))),
-            ArgKind::Expr(Expr { kind: ExprKind::Name(name), .. }) => (Some(name), self.lone_word(statement, name)),
+            ArgKind::Expr(Expr { kind: ExprKind::Name(name), .. }) => {
+                (Some(name), self.lone_word(statement, name))
+            }
             ArgKind::Expr(expr) => (None, as_token(self.evaluate(expr))),
         };
         Token { span: arg.span, name, kind }

@@ -3,7 +3,6 @@
 use std::rc::Rc;
 
 use crate::arena::Handle;
-use crate::geom::Point3;
 use crate::geom::motion::Law;
 use crate::ir::{CamEntity, CurveEntity, Stock, Tool};
 use crate::source::Span;
@@ -70,11 +69,6 @@ impl Value {
     #[must_use]
     pub fn number(value: f64, dim: Dim) -> Value {
         Value::Number(Quantity::new(value, dim))
-    }
-    /// A point, mm.
-    #[must_use]
-    pub fn point(p: Point3) -> Value {
-        Value::Vector(Vector { v: [p.x, p.y, p.z], dim: Dim::LENGTH })
     }
     /// With its article, for messages.
     #[must_use]
@@ -195,6 +189,8 @@ pub enum MotionSource {
         rows: Vec<(f64, f64)>,
         /// Dimension of the lift; bare when the heading has no unit.
         dim: Dim,
+        /// The last row meets the first.
+        periodic: bool,
     },
 }
 

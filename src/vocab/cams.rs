@@ -1,8 +1,8 @@
 //! Followers, motions, cams.
 
 use super::{
-    Choice, Choices, EntityKind, Form, Group, Item, Kind, LENGTH, Member, POSITIVE, Range, Statement, Usage,
-    choices, form, member, optional, program::SPEED, value, with, word,
+    Choices, EntityKind, Form, Group, Item, Kind, LENGTH, Member, POSITIVE, Range, Statement, Usage, choices,
+    form, member, program::SPEED, value, with, word,
 };
 use crate::units::Dim;
 
@@ -104,7 +104,11 @@ const MOTION: &[Form] = &[
             Item::Word("table", &[word("TABLE", "discrete data")]),
             value("file", Kind::Text, "CSV file with a heading such as `angle[deg],lift[mm]`"),
         ],
-        &[choices("periodic", &[word("PERIODIC", "the last row meets the first")], "PERIODIC")],
+        &[choices(
+            "periodic",
+            &[word("PERIODIC", "the motion goes on over the seam as between rows")],
+            "rest at both ends",
+        )],
     ),
 ];
 
@@ -158,7 +162,7 @@ const CAM: &[Form] = &[form(
         with(
             "width",
             &[word("WIDTH", "width of the follower's flat face")],
-            &[optional("width", POSITIVE, "length")],
+            &[value("width", POSITIVE, "length")],
             false,
             "wide enough",
         ),

@@ -107,6 +107,13 @@ pub const FACE_TOO_NARROW: Code = Code {
     page: include_str!("../../../docs/diagnostics/W0404.md"),
 };
 
+/// a lift that does not fit the follower.
+pub const LIFT_DIMENSION: Code = Code {
+    id: "E0412",
+    title: "a lift that does not fit the follower",
+    page: include_str!("../../../docs/diagnostics/E0412.md"),
+};
+
 /// All codes of this area.
 pub const ALL: &[&Code] = &[
     &ANGLES_DO_NOT_CLOSE,
@@ -120,6 +127,7 @@ pub const ALL: &[&Code] = &[
     &PROFILE_CROSSES,
     &GROOVE_NEEDS_ROLLER,
     &CUTTER_TOO_LARGE,
+    &LIFT_DIMENSION,
     &PRESSURE_ANGLE,
     &ACCELERATION_JUMPS,
     &NEGATIVE_LIFT,
