@@ -1,7 +1,8 @@
 //! Proven lower bounds on the number of links of a chain in a tube, wherever its vertices lie.
 //!
 //! The tube is widened by the sampling error first. A chain that follows the whole of an open curve passes from the
-//! first gate to the last; the farthest windows from the first gate count its links (greedy is optimal: what more can
+//! first gate to the last (of these only what is a few grid steps from the curve: a path starts and ends as near to the
+//! curve's ends as the grid allows); the farthest windows from the first gate count its links (greedy is optimal: what more can
 //! be seen from a farther window contains what can be seen from a nearer one). A closed chain has a vertex in any
 //! stretch that one link cannot pass, and cut at the gate through that vertex it is an open chain of as many links
 //! from that gate to the same gate one lap on. Gates `a < b` around it bound all cuts between them: a chain from
@@ -41,7 +42,10 @@ pub fn spirals(tube: &Tube, grid: &Grid) -> Result<u32, FitError> {
 /// The bound for stations at hand.
 #[must_use]
 pub fn links(stations: &Stations, tube: &Tube) -> u32 {
-    let gates = stations.gates(tube, 1.0, Guard::Outside);
+    let mut gates = stations.gates(tube, 1.0, Guard::Outside);
+    if !stations.closed {
+        stations.pin_ends(tube, &mut gates);
+    }
     let mut stab = Stab::default();
     if gates.len() < 2 {
         return 1;

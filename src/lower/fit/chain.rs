@@ -15,6 +15,9 @@ const ACCEPTED: f64 = 4.0 * ROUNDING;
 /// Parts of the band that are tried when the certified deviation of a chain leaves it.
 const RETRIES: [f64; 4] = [1.0, 0.998, 0.99, 0.96];
 
+/// Chains of no more links than this that miss the bound are searched for once more, widely: there the grid decides.
+const FEW: usize = 16;
+
 /// A chain of grid vertices; the last one closes it or ends it.
 #[derive(Debug, Clone)]
 struct Chain {
@@ -92,6 +95,12 @@ impl Solver<'_> {
             None => self.harder(from)?,
         };
         self.fewer(&mut best, from, effort, rounds);
+        let few = best.links() <= FEW && best.links() > self.bound as usize;
+        if few && let Ok(chain) = self.attempt(1.0, from, Effort { beam: 32, tries: 16 })
+            && chain.links() < best.links()
+        {
+            best = chain;
+        }
         self.shrink(&mut best, from, effort, rounds);
         Ok(best)
     }
@@ -207,7 +216,7 @@ impl Solver<'_> {
         let link = n as f64 / f64::from(self.bound.max(1));
         let back = ((3.0 * link).ceil() as usize).clamp(1, n);
         let begin = from + n - back;
-        let endless = Course { gates, end: usize::MAX - 8, target: None };
+        let endless = Course { gates, end: from + 3 * n, target: None };
         let first =
             (begin..begin + back.min(64)).find_map(|g| seed(gates, g)).ok_or(Stuck { gate: begin % n })?;
         let narrow = Effort { beam: effort.beam.min(3), tries: effort.tries };
@@ -238,8 +247,8 @@ impl Solver<'_> {
     fn open(&mut self, gates: &Gates, effort: Effort) -> Result<Vec<Vertex>, Stuck> {
         let n = gates.len();
         let course = Course { gates, end: n, target: None };
-        let tail = self.end_vertex(n - 1).ok_or(Stuck { gate: n - 1 })?;
-        let head = self.end_vertex(0).ok_or(Stuck { gate: 0 })?;
+        let tail = self.stations.end_vertex(self.tube, n - 1).ok_or(Stuck { gate: n - 1 })?;
+        let head = self.stations.end_vertex(self.tube, 0).ok_or(Stuck { gate: 0 })?;
         let (p, q) = (Vec2::new(head[0] as f64, head[1] as f64), Vec2::new(tail[0] as f64, tail[1] as f64));
         let next = course.locate(p, 8.min(n - 1), 0).map_or(0, |g| g + 1).clamp(1, n - 1);
         let end = course.locate(q, n - 1, next - 1).map_or(next, |g| g + 1).min(n - 1).max(next);
@@ -248,33 +257,6 @@ impl Solver<'_> {
         let mut chain = self.search.run(&course, &[head], Goal::Target, effort)?;
         chain.push(Vertex { at: tail, next: end });
         Ok(chain)
-    }
-
-    /// The grid point nearest to the curve's end at station `i` that lies in the band.
-    fn end_vertex(&self, i: usize) -> Option<[i64; 2]> {
-        let f = self.stations.stations[i].frenet;
-        let plane = self.stations.plane;
-        let (l, near) = (self.angle_near(i), f.p);
-        let centre = plane.to_grid(near, l);
-        let mut best: Option<(f64, [i64; 2])> = None;
-        for dx in -3..=3 {
-            for dy in -3..=3 {
-                let at = [centre.x.round() as i64 + dx, centre.y.round() as i64 + dy];
-                let w = plane.to_part(Vec2::new(at[0] as f64, at[1] as f64)) - f.p;
-                let d = w.dot(&f.n());
-                let inside = d <= self.tube.left + ROUNDING && d >= -self.tube.right - ROUNDING;
-                if inside && best.is_none_or(|b| w.norm() < b.0) {
-                    best = Some((w.norm(), at));
-                }
-            }
-        }
-        best.map(|b| b.1)
-    }
-
-    /// Grid coordinates of station `i`, its angle counted on from the first station.
-    fn angle_near(&self, i: usize) -> Vec2 {
-        let plane = self.stations.plane;
-        self.stations.stations[..=i].iter().fold(Vec2::zeros(), |near, s| plane.to_grid(s.frenet.p, near))
     }
 
     /// Smallest and largest deviation of the chain, on its printed vertices.

@@ -159,7 +159,8 @@ fn finished(nodes: &[Node], layer: &[usize], goal: Goal) -> Option<Vec<Vertex>> 
             Some(chain)
         }
         Goal::Beyond(gate) => {
-            let beyond = |i: &&usize| nodes[**i].vertex.next > gate;
+            // a vertex that sees the end of the course is as good as one beyond the gate
+            let beyond = |i: &&usize| nodes[**i].vertex.next > gate || nodes[**i].view.exit == Exit::End;
             let answer: Vec<Vertex> = layer.iter().filter(beyond).map(|i| nodes[*i].vertex).collect();
             (!answer.is_empty()).then_some(answer)
         }
