@@ -58,11 +58,11 @@ pub fn fit(tube: &Tube, plane: Plane, start: Option<f64>) -> Result<Fit, FitErro
 /// How hard to try, by the number of links.
 fn effort(links: f64) -> (Effort, u32) {
     match links {
-        n if n < 12.0 => (Effort { beam: 8, tries: 8 }, 8),
-        n if n < 300.0 => (Effort { beam: 4, tries: 6 }, 4),
-        n if n < 3_000.0 => (Effort { beam: 3, tries: 4 }, 3),
-        n if n < 30_000.0 => (Effort { beam: 2, tries: 3 }, 1),
-        _ => (Effort { beam: 2, tries: 2 }, 0),
+        n if n < 12.0 => (Effort { beam: 8, tries: 8, all: false }, 8),
+        n if n < 300.0 => (Effort { beam: 4, tries: 6, all: false }, 4),
+        n if n < 3_000.0 => (Effort { beam: 3, tries: 4, all: false }, 3),
+        n if n < 30_000.0 => (Effort { beam: 2, tries: 3, all: false }, 1),
+        _ => (Effort { beam: 2, tries: 2, all: false }, 0),
     }
 }
 
@@ -96,7 +96,8 @@ impl Solver<'_> {
         };
         self.fewer(&mut best, from, effort, rounds);
         let few = best.links() <= FEW && best.links() > self.bound as usize;
-        if few && let Ok(chain) = self.attempt(1.0, from, Effort { beam: 32, tries: 16 })
+        if few
+            && let Ok(chain) = self.attempt(1.0, from, Effort { beam: 32, tries: 16, all: true })
             && chain.links() < best.links()
         {
             best = chain;
@@ -107,7 +108,7 @@ impl Solver<'_> {
 
     /// A wide search where the narrow one died; then the question how wide the band should be.
     fn harder(&mut self, from: usize) -> Result<Chain, FitError> {
-        let wide = Effort { beam: 32, tries: 12 };
+        let wide = Effort { beam: 32, tries: 12, all: true };
         let stuck = match self.attempt(1.0, from, wide) {
             Ok(chain) => return Ok(chain),
             Err(stuck) => stuck,
@@ -125,7 +126,7 @@ impl Solver<'_> {
             let tube = Tube { curve: self.tube.curve, left, right };
             let mut wider =
                 Solver { tube: &tube, stations: self.stations, search: Search::default(), bound: self.bound };
-            if wider.attempt(1.0, from, Effort { beam: 4, tries: 6 }).is_ok() {
+            if wider.attempt(1.0, from, Effort { beam: 4, tries: 6, all: false }).is_ok() {
                 break;
             }
         }
@@ -219,7 +220,7 @@ impl Solver<'_> {
         let endless = Course { gates, end: from + 3 * n, target: None };
         let first =
             (begin..begin + back.min(64)).find_map(|g| seed(gates, g)).ok_or(Stuck { gate: begin % n })?;
-        let narrow = Effort { beam: effort.beam.min(3), tries: effort.tries };
+        let narrow = Effort { beam: effort.beam.min(3), ..effort };
         let heads = self.search.run(&endless, &[first], Goal::Beyond(from + n - 1), narrow)?;
         let mut best: Option<Vec<Vertex>> = None;
         let mut error = Stuck { gate: from };
@@ -403,8 +404,11 @@ impl Solver<'_> {
             best = nearer(best, Some(Foot { u: None, span: before.span, d }));
         }
         best.unwrap_or_else(|| {
-            let d = (p - before.frenet.p).dot(&before.frenet.n());
-            Foot { u: None, span: before.span, d }
+            // beyond the end of an open curve: on the normal of that end
+            let after = &self.stations.stations[v.next % n];
+            let off = |s: &Station| (p - s.frenet.p).dot(&s.frenet.t).abs();
+            let end = if off(after) < off(before) { after } else { before };
+            Foot { u: None, span: before.span, d: (p - end.frenet.p).dot(&end.frenet.n()) }
         })
     }
 

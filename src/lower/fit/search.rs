@@ -15,6 +15,8 @@ pub struct Effort {
     pub beam: usize,
     /// Grid points tried for each of them.
     pub tries: usize,
+    /// Also those that cannot see as far as the best do: where the grid is coarse they may be the only way on.
+    pub all: bool,
 }
 
 /// Grid columns looked at for one vertex when nothing has been found yet, and when something has.
@@ -112,7 +114,7 @@ impl Search {
         let mut next: Vec<usize> = Vec::new();
         for &parent in layer {
             let (vertex, view) = (nodes[parent].vertex, nodes[parent].view);
-            self.candidates(course, &vertex, &view, effort.tries);
+            self.candidates(course, &vertex, &view, effort);
             for k in 0..self.found.len() {
                 let at = self.found[k].1;
                 if next.iter().any(|i| nodes[*i].vertex.at == at) {
@@ -128,15 +130,16 @@ impl Search {
     }
 
     /// Grid points of the view, best first, into `self.found`.
-    fn candidates(&mut self, course: &Course, from: &Vertex, view: &View, tries: usize) {
+    fn candidates(&mut self, course: &Course, from: &Vertex, view: &View, effort: Effort) {
         self.found.clear();
         let Some(window) = view.window(course) else { return };
         let aim = self.stab.view(course, &window);
         let scan = Scan::new(course, from, view, &aim);
-        scan.run(tries, &mut self.found);
-        if self.found.is_empty() {
-            // the aim's harmless side holds no grid point: take those nearest to it on either side
-            Scan { either: true, ..scan }.run(tries, &mut self.found);
+        scan.run(effort.tries, &mut self.found);
+        if self.found.is_empty() || effort.all {
+            let mut either = Vec::new();
+            Scan { either: true, ..scan }.run(effort.tries, &mut either);
+            self.found.extend(either);
         }
     }
 }
@@ -173,11 +176,16 @@ fn place(course: &Course, at: [i64; 2], from: &Vertex, view: &View) -> Option<Ve
     let last = (view.stop - 1).min(course.end - 1);
     let floor = from.next.saturating_sub(1);
     let gate = course.locate(p, last, floor)?;
-    let ahead = (p - from.point()).dot(&(view.tip - from.point())) > 0.0;
-    let (r, l) = (course.right(gate), course.left(gate));
-    let inside =
-        cross(course.right(gate + 1) - r, p - r) >= 0.0 && cross(course.left(gate + 1) - l, p - l) <= 0.0;
-    (inside && ahead).then_some(Vertex { at, next: gate + 1 })
+    let (origin, d) = (from.point(), p - from.point());
+    let ahead = d.dot(&(view.tip - origin)) > 0.0;
+    let seen =
+        cross(view.lo.1, d) >= 0.0 && cross(d, view.hi.1) >= 0.0 || course.sees(origin, from.next, p, gate);
+    // what is seen past a gate and lies before the next is in the tube, but for the gate that stops the view
+    let inside = gate + 1 < view.stop || {
+        let (r, l) = (course.right(gate), course.left(gate));
+        cross(course.right(gate + 1) - r, p - r) >= 0.0 && cross(course.left(gate + 1) - l, p - l) <= 0.0
+    };
+    (seen && inside && ahead).then_some(Vertex { at, next: gate + 1 })
 }
 
 /// n·p >= c.
@@ -231,7 +239,7 @@ impl<'a> Scan<'a> {
             Exit::Through(Bank::Left) => HalfPlane::right_of(q, d),
             _ => HalfPlane::left_of(q, d),
         };
-        let wedge = [HalfPlane::left_of(view.lo.0, view.lo.1), HalfPlane::right_of(view.hi.0, view.hi.1)];
+        let wedge = [HalfPlane::left_of(p, view.wedge.0), HalfPlane::right_of(p, view.wedge.1)];
         let start = meet(p, far, plane, view.tip)[axis];
         let either = aim.exit == Exit::End;
         Scan { course, from, view, outer, axis, sign: far[axis].signum(), wedge, aim: plane, either, start }
@@ -255,13 +263,11 @@ impl<'a> Scan<'a> {
                 return;
             }
             edge = self.edge(edge, column);
-            if let Some((least, best)) = self.column(column, edge) {
-                if full && least > found[found.len() - 1].0 {
+            if let Some((span, ideal)) = self.column(column, edge) {
+                if full && self.cost(column, ideal) > found[found.len() - 1].0 {
                     return;
                 }
-                if let Some((cost, at)) = best {
-                    insert(found, tries, cost, at);
-                }
+                self.grid_points(column, span, ideal, tries, found);
             }
             column += step;
         }
@@ -281,8 +287,8 @@ impl<'a> Scan<'a> {
         edge
     }
 
-    /// The least cost that a real point of the column could have, and the best grid point with its cost.
-    fn column(&self, column: f64, edge: usize) -> Option<(f64, Option<(f64, [i64; 2])>)> {
+    /// The part of a column that may be used, and its best point.
+    fn column(&self, column: f64, edge: usize) -> Option<((f64, f64), f64)> {
         let (a, b) = (self.course.on(self.outer, edge), self.course.on(self.outer, edge + 1));
         let bank = match self.outer {
             Bank::Right => HalfPlane::left_of(a, b - a),
@@ -302,10 +308,26 @@ impl<'a> Scan<'a> {
         let rise = self.aim.n[other];
         let zero = (self.aim.c - self.aim.n[self.axis] * column) / rise;
         let ideal = if zero.is_finite() { zero.clamp(span.0, span.1) } else { span.0 };
-        let least = self.cost(column, ideal);
-        let grid = [ideal.floor(), ideal.ceil()].into_iter().filter(|y| *y >= span.0 && *y <= span.1);
-        let best = grid.map(|y| (self.cost(column, y), y)).min_by(|a, b| a.0.total_cmp(&b.0));
-        Some((least, best.map(|(cost, y)| (cost, self.point(column, y)))))
+        Some((span, ideal))
+    }
+
+    /// The grid points of a column next to its best point.
+    fn grid_points(
+        &self,
+        column: f64,
+        span: (f64, f64),
+        ideal: f64,
+        tries: usize,
+        found: &mut Vec<(f64, [i64; 2])>,
+    ) {
+        let rings = if self.either { 4 } else { 1 };
+        for ring in 0..rings {
+            for y in [ideal.floor() - f64::from(ring), ideal.floor() + 1.0 + f64::from(ring)] {
+                if y >= span.0 && y <= span.1 {
+                    insert(found, tries, self.cost(column, y), self.point(column, y));
+                }
+            }
+        }
     }
 
     fn clip(&self, plane: &HalfPlane, column: f64, span: &mut (f64, f64)) {

@@ -334,7 +334,8 @@ impl Stations {
         // the far boundary may be as far from the corner itself as from its spans; the near one must clear both spans
         let far = side == inner;
         let reach = if far && guard == Guard::Inside { d } else { d / cos };
-        let foot = reach.abs() * corner.half_sin.abs();
+        // normals with a nearer foot end at the bisector before the offset
+        let foot = d.abs() * corner.half_sin.abs() / cos;
         let tip = corner.point + corner.bisector() * reach;
         let n = self.stations.len();
         for i in corner.first..=corner.last {
@@ -438,6 +439,7 @@ fn clamp_to_centre(d: f64, k: f64) -> f64 {
 /// Sampling error by the number of primitives: finer where time allows.
 fn error_for(estimate: f64) -> f64 {
     match estimate {
+        e if e < 20.0 => 1e-4,
         e if e < 2_000.0 => 1e-3,
         e if e < 20_000.0 => 2.5e-3,
         _ => 1e-2,
@@ -579,8 +581,9 @@ impl Sampler<'_> {
         turns: (f64, f64),
     ) -> Result<Vec<f64>, FitError> {
         let last = checked(self.tube.curve, span, end)?;
-        let widest = self.tube.left.max(self.tube.right);
-        let foot = |turn: f64| widest * math::sin(turn.abs() / 2.0);
+        // a little more than where the offsets of both spans meet, rounding slack included
+        let widest = (self.tube.left.max(self.tube.right) + 4.0 * ROUNDING) * (1.0 + 1e-6);
+        let foot = |turn: f64| widest * math::tan(turn.abs() / 2.0);
         let mut stops = Vec::with_capacity(3);
         if turns.0.abs() > SMOOTH && first.speed > 0.0 {
             stops.push(start + foot(turns.0) / first.speed);

@@ -62,6 +62,12 @@ impl Course<'_> {
             i -= 1;
         }
     }
+    /// Whether the straight way from `p`, whose next gate is `next`, to `q` passes the gates up to `last`.
+    #[must_use]
+    pub fn sees(&self, p: Vec2, next: usize, q: Vec2, last: usize) -> bool {
+        let d = q - p;
+        (next..=last).all(|i| cross(d, self.left(i) - p) >= 0.0 && cross(d, self.right(i) - p) <= 0.0)
+    }
 }
 
 /// A boundary of the tube.
@@ -106,6 +112,9 @@ pub struct View {
     pub lo: (Vec2, Vec2),
     /// Most counter-clockwise line.
     pub hi: (Vec2, Vec2),
+    /// Bounds of the directions to points beyond the last contact: that line, and on the other side the bound as it
+    /// was there (what lies before the last gate is seen past fewer gates).
+    pub wedge: (Vec2, Vec2),
     /// Gate of the last contact of the farthest line.
     pub contact: usize,
     /// The gate that it cannot pass (the final gate's successor at the end).
@@ -157,6 +166,7 @@ fn leave(p: Vec2, d: Vec2, a: Vec2, b: Vec2, i: f64) -> (Vec2, f64) {
 pub fn look(course: &Course, p: Vec2, next: usize) -> View {
     let (mut lo, mut hi) = (course.right(next) - p, course.left(next) - p);
     let (mut lo_at, mut hi_at) = (next, next);
+    let (mut lo_then, mut hi_then) = (lo, hi);
     let mut i = next;
     let (mut before_l, mut before_r) = (p + hi, p + lo);
     while i < course.end {
@@ -166,31 +176,43 @@ pub fn look(course: &Course, p: Vec2, next: usize) -> View {
         if cross(hi, dr) > 0.0 {
             let (tip, reach) = leave(p, hi, before_r, r, (i - 1) as f64);
             let exit = Exit::Through(Bank::Right);
-            return View { exit, lo: (p, lo), hi: (p, hi), contact: hi_at, stop: i, tip, reach };
+            return View {
+                exit,
+                lo: (p, lo),
+                hi: (p, hi),
+                wedge: (lo_then, hi),
+                contact: hi_at,
+                stop: i,
+                tip,
+                reach,
+            };
         }
         if cross(lo, dl) < 0.0 {
             let (tip, reach) = leave(p, lo, before_l, l, (i - 1) as f64);
             let exit = Exit::Through(Bank::Left);
-            return View { exit, lo: (p, lo), hi: (p, hi), contact: lo_at, stop: i, tip, reach };
+            return View {
+                exit,
+                lo: (p, lo),
+                hi: (p, hi),
+                wedge: (lo, hi_then),
+                contact: lo_at,
+                stop: i,
+                tip,
+                reach,
+            };
         }
+        let before = (lo, hi);
         if cross(hi, dl) <= 0.0 {
-            (hi, hi_at) = (dl, i);
+            (hi, hi_at, lo_then) = (dl, i, before.0);
         }
         if cross(lo, dr) >= 0.0 {
-            (lo, lo_at) = (dr, i);
+            (lo, lo_at, hi_then) = (dr, i, before.1);
         }
         (before_l, before_r) = (l, r);
     }
     let tip = p + (lo + hi) / 2.0;
-    View {
-        exit: Exit::End,
-        lo: (p, lo),
-        hi: (p, hi),
-        contact: course.end,
-        stop: course.end + 1,
-        tip,
-        reach: course.end as f64,
-    }
+    let (contact, stop, reach) = (course.end, course.end + 1, course.end as f64);
+    View { exit: Exit::End, lo: (p, lo), hi: (p, hi), wedge: (lo, hi), contact, stop, tip, reach }
 }
 
 /// Working memory of [`Stab::view`].
@@ -261,7 +283,8 @@ impl Stab {
             Exit::Through(Bank::Left) => self.lo_contact,
             Exit::End => stop,
         };
-        View { exit, lo: self.lo, hi: self.hi, contact: contact.min(stop - 1), stop, tip, reach }
+        let wedge = (self.lo.1, self.hi.1);
+        View { exit, lo: self.lo, hi: self.hi, wedge, contact: contact.min(stop - 1), stop, tip, reach }
     }
 
     /// A left end: the counter-clockwise line may have to sink to it.
