@@ -5,10 +5,11 @@
 //! from the middle of the band is minimised by sequential linear minimax programming ([`optimise`], [`minimax`]),
 //! from joints at equal shares of ∫|k'|^(1/3) ds ([`start`]): the deviation obeys e'' = k_arc - k, so this is best
 //! approximation by C1 quadratic splines with free knots. The count is found by inserting and removing arcs
-//! ([`search`]); the result is rounded to the grid ([`round`]) and certified there ([`certify`]).
+//! ([`search`], [`descend`]); the result is rounded to the grid ([`round`]) and certified there ([`certify`]).
 
 mod certify;
 mod chain;
+mod descend;
 mod exact;
 pub(in crate::lower::fit) mod minimax;
 mod optimise;

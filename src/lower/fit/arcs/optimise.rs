@@ -18,6 +18,10 @@ pub(super) struct Stop {
     pub smooth: bool,
 }
 
+/// A linear problem whose optimum is beyond this multiple of the target gives no hope to reach it …
+const HOPE: f64 = 1.04;
+/// … when it happens this many times in a row.
+const PATIENCE: usize = 4;
 /// Accuracy of each linear problem, relative.
 const LINEAR: f64 = 1e-3;
 /// Largest move of a joint along the curve in one iteration, as a share of the shorter arc beside it.
@@ -38,7 +42,7 @@ pub(super) fn improve(mut chain: Chain, stretch: &Stretch<'_>, goal: &Goal, stop
     }
     let mut worst = measure(&chain, stretch, goal);
     let mut trust = 1.0;
-    let mut stalls = 0;
+    let (mut stalls, mut hopeless) = (0, 0);
     for _ in 0..stop.iterations {
         if worst <= stop.target || trust < SMALLEST_TRUST {
             break;
@@ -66,7 +70,9 @@ pub(super) fn improve(mut chain: Chain, stretch: &Stretch<'_>, goal: &Goal, stop
             r if r < 0.2 => trust *= 0.35,
             _ => {}
         }
-        if expected < stop.gain * worst || stalls > 1 {
+        hopeless = if solution.t > HOPE * stop.target && worst > stop.target { hopeless + 1 } else { 0 };
+        let given_up = stop.target > 0.0 && hopeless >= PATIENCE;
+        if expected < stop.gain * worst || stalls > 1 || given_up {
             break;
         }
     }

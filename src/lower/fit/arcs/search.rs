@@ -1,6 +1,7 @@
 //! How many arcs: insert where the band is missed, take away where there is slack, keep the fewest.
 
 use super::chain::{Chain, Drawn, Goal, Hold, Joint, Member, arc_measure};
+use super::descend::descend;
 use super::exact::{self, Keep};
 use super::optimise::{Stop, improve};
 use super::start::{Density, least, spread};
@@ -9,7 +10,7 @@ use super::stretch::{Stretch, turn};
 /// Share of the band's half width that the arcs before rounding may use.
 const SHARE: f64 = 0.97;
 /// Iterations while looking for the count.
-const SEARCH_ITERATIONS: usize = 24;
+pub(super) const SEARCH_ITERATIONS: usize = 24;
 /// Iterations of the last polish.
 const POLISH_ITERATIONS: usize = 16;
 /// Arcs whose deviation is at least this share of the worst are active.
@@ -42,7 +43,7 @@ pub(super) fn fewest(stretch: &Stretch<'_>, wish: &Wish) -> Option<(Chain, f64)>
     let mut try_from = |chain: Chain| {
         let most = best.as_ref().map_or(4 * chain.len() + 40, |(c, _)| c.len());
         let Some((chain, worst)) = grow(chain, stretch, goal, limit, most) else { return };
-        let (chain, worst) = shrink(chain, worst, stretch, goal, limit);
+        let (chain, worst) = descend(chain, worst, stretch, wish, limit);
         let better = |(c, w): &(Chain, f64)| (chain.len(), worst) < (c.len(), *w);
         if best.as_ref().is_none_or(better) {
             best = Some((chain, worst));
@@ -54,9 +55,7 @@ pub(super) fn fewest(stretch: &Stretch<'_>, wish: &Wish) -> Option<(Chain, f64)>
         if exact::kept(stretch, Keep::ArcsAndLines).0 {
             keep(Keep::ArcsAndLines).into_iter().for_each(&mut try_from);
         }
-        for phase in [0.5, 0.0] {
-            try_from(with_ends(spread(stretch, &density, n, phase, goal.band.middle), wish));
-        }
+        try_from(with_ends(spread(stretch, &density, n, 0.5, goal.band.middle), wish));
     }
     let (chain, _) = best?;
     let stop = Stop { target: 0.0, iterations: POLISH_ITERATIONS, gain: 2e-3, smooth: true };
@@ -64,7 +63,7 @@ pub(super) fn fewest(stretch: &Stretch<'_>, wish: &Wish) -> Option<(Chain, f64)>
     Some(straightened(chain, worst, stretch, wish, &stop))
 }
 
-fn with_ends(mut chain: Chain, wish: &Wish) -> Chain {
+pub(super) fn with_ends(mut chain: Chain, wish: &Wish) -> Chain {
     if let Some([a, b]) = wish.ends {
         let last = chain.joints.len() - 1;
         chain.joints[0] = a;
@@ -93,7 +92,7 @@ fn cube_unit(goal: &Goal) -> f64 {
     crate::math::cbrt(72.0 * 1.732_050_8 * goal.band.half)
 }
 
-fn density(stretch: &Stretch<'_>, n: usize) -> Density {
+pub(super) fn density(stretch: &Stretch<'_>, n: usize) -> Density {
     Density::new(stretch, stretch.length() / (4.0 * n as f64))
 }
 
@@ -128,23 +127,6 @@ fn grow(
     }
 }
 
-/// Takes arcs away where there is slack, as long as the band can be kept.
-fn shrink(mut chain: Chain, mut worst: f64, stretch: &Stretch<'_>, goal: &Goal, limit: f64) -> (Chain, f64) {
-    let stop = Stop { target: limit, iterations: SEARCH_ITERATIONS, gain: 5e-3, smooth: true };
-    let floor = least(stretch);
-    loop {
-        if chain.len() <= floor.max(2) {
-            return (chain, worst);
-        }
-        let Some(fewer) = remove(&chain, stretch, goal) else { return (chain, worst) };
-        let (next, found) = improve(fewer, stretch, goal, &stop);
-        if found > limit {
-            return (chain, worst);
-        }
-        (chain, worst) = (next, found);
-    }
-}
-
 /// One more arc in the run of active arcs about the worst one.
 fn insert(chain: Chain, stretch: &Stretch<'_>, goal: &Goal) -> Chain {
     let n = chain.len();
@@ -164,7 +146,7 @@ fn insert(chain: Chain, stretch: &Stretch<'_>, goal: &Goal) -> Chain {
 }
 
 /// How bad every arc is: its distance from the middle of the band and the tangent errors at its ends.
-fn measures(chain: &Chain, stretch: &Stretch<'_>, goal: &Goal) -> Vec<f64> {
+pub(super) fn measures(chain: &Chain, stretch: &Stretch<'_>, goal: &Goal) -> Vec<f64> {
     let weight = goal.band.half / goal.tangent;
     (0..chain.len())
         .map(|i| {
@@ -174,31 +156,8 @@ fn measures(chain: &Chain, stretch: &Stretch<'_>, goal: &Goal) -> Vec<f64> {
         .collect()
 }
 
-/// One arc fewer in the window with the most slack.
-fn remove(chain: &Chain, stretch: &Stretch<'_>, goal: &Goal) -> Option<Chain> {
-    let n = chain.len();
-    let width = 4.min(n);
-    let measures = measures(chain, stretch, goal);
-    let starts = if chain.closed { n } else { n + 1 - width };
-    let (first, _) = (0..starts)
-        .filter(|&i| (0..width).all(|j| !chain.is_exact((i + j) % n)))
-        .map(|i| {
-            (
-                i,
-                (0..width)
-                    .map(|j| {
-                        let m = measures[(i + j) % n];
-                        m * m
-                    })
-                    .sum::<f64>(),
-            )
-        })
-        .min_by(|a, b| a.1.total_cmp(&b.1))?;
-    Some(respread(chain, stretch, first, width, width - 1))
-}
-
 /// Replaces `count` arcs from arc `first` on by `new` arcs at equal shares of the density.
-fn respread(chain: &Chain, stretch: &Stretch<'_>, first: usize, count: usize, new: usize) -> Chain {
+pub(super) fn respread(chain: &Chain, stretch: &Stretch<'_>, first: usize, count: usize, new: usize) -> Chain {
     let n = chain.len();
     let mut rotated = rotate(chain, stretch, first);
     let first = if chain.closed { 0 } else { first };

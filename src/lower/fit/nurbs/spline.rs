@@ -66,6 +66,7 @@ fn raise(knots: &[f64], i: usize, t: f64, degree: usize, b: &mut [f64; ORDER]) {
 
 impl Spline {
     /// First and last parameter.
+    #[cfg(test)]
     pub fn domain(&self) -> (f64, f64) {
         (self.knots[ORDER - 1], self.knots[self.points.len()])
     }
