@@ -2,15 +2,15 @@
 
 use super::chain::{Chain, Goal, Hold, Joint, Member, measure};
 use super::optimise::{Stop, improve};
-use super::search::{SEARCH_ITERATIONS, Wish, density, measures, respread, rotate, with_ends};
+use super::search::{
+    SEARCH_ITERATIONS, WINDOW as OUT, Wish, density, measures, respread, rotate, settle, slack, with_ends,
+};
 use super::start::{least, spread};
 use super::stretch::Stretch;
 use crate::math;
 
 /// Shifts of the joints that are tried over the whole stretch, in arcs.
-const PHASES: [f64; 4] = [0.5, 0.0, 0.25, 0.75];
-/// Windows over the whole stretch that share the density's smoothing, in arcs.
-const SMOOTHINGS: [f64; 2] = [4.0, 1.5];
+const PHASES: [f64; 2] = [0.5, 0.0];
 /// Places where an arc is taken out of a whole chain.
 const PLACES: usize = 3;
 /// Chains up to this length are searched as a whole.
@@ -61,7 +61,7 @@ fn fewer(
             return Some((next, found));
         }
     }
-    if n > WHOLE || chain.members.iter().any(|m| !matches!(m, Member::Arc(_))) {
+    if n > WHOLE || wish.exact {
         return None;
     }
     for count in expected(chain, stretch, wish, limit).max(floor)..n {
@@ -78,24 +78,19 @@ fn expected(chain: &Chain, stretch: &Stretch<'_>, wish: &Wish, limit: f64) -> us
     let (_, worst) = improve(chain.clone(), stretch, &wish.goal, &polish);
     let n = chain.len() as f64;
     let expected = (n * math::cbrt((worst / limit).min(1.0)) - 0.5).ceil() as usize;
-    expected.clamp(chain.len().saturating_sub(4), chain.len().saturating_sub(2))
+    let least = chain.len().saturating_sub(if chain.len() <= 10 { 4 } else { 3 });
+    if chain.len() <= 10 { least } else { expected.saturating_sub(1).clamp(least, chain.len() - 2) }
 }
 
 /// A chain of `count` arcs from one of several starts.
 fn anew(stretch: &Stretch<'_>, wish: &Wish, limit: f64, count: usize) -> Option<(Chain, f64)> {
     let middle = wish.goal.band.middle;
-    for smoothing in SMOOTHINGS {
-        let density = if smoothing == SMOOTHINGS[0] {
-            density(stretch, count)
-        } else {
-            super::start::Density::new(stretch, stretch.length() / (smoothing * count as f64))
-        };
-        for phase in PHASES {
-            let start = with_ends(spread(stretch, &density, count, phase, middle), wish);
-            let (next, found) = improve(start, stretch, &wish.goal, &stop(limit));
-            if found <= limit {
-                return Some((next, found));
-            }
+    let density = density(stretch, count);
+    for phase in PHASES {
+        let start = with_ends(spread(stretch, &density, count, phase, middle), wish);
+        let (next, found) = settle(start, stretch, &wish.goal, limit);
+        if found <= limit {
+            return Some((next, found));
         }
     }
     None
@@ -104,16 +99,10 @@ fn anew(stretch: &Stretch<'_>, wish: &Wish, limit: f64, count: usize) -> Option<
 /// The chain with an arc taken out, at the places with the most slack.
 fn without_one(chain: &Chain, stretch: &Stretch<'_>, goal: &Goal) -> Vec<Chain> {
     let n = chain.len();
-    let width = 4.min(n);
+    let width = OUT.min(n);
     let measures = measures(chain, stretch, goal);
-    let starts = if chain.closed { n } else { n + 1 - width };
-    let mut places: Vec<(usize, f64)> = (0..starts)
-        .filter(|&i| (0..width).all(|j| !chain.is_exact((i + j) % n)))
-        .map(|i| (i, (0..width).map(|j| measures[(i + j) % n] * measures[(i + j) % n]).sum()))
-        .collect();
-    places.sort_by(|a, b| a.1.total_cmp(&b.1));
     let mut chosen: Vec<usize> = Vec::new();
-    for (i, _) in places {
+    for i in slack(chain, &measures, width) {
         let apart = |&j: &usize| (i + n - j) % n >= width / 2 && (j + n - i) % n >= width / 2;
         if chosen.len() < PLACES && chosen.iter().all(apart) {
             chosen.push(i);

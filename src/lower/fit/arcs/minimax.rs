@@ -337,9 +337,12 @@ impl Problem {
         x[self.variables()] = 1.1 * worst + 1e-12;
         let rows: Vec<Compact> = self.rows.iter().map(Compact::new).collect();
         let mut matrix = Arrow::new(self, &rows);
-        let mut state = Interior { problem: self, rows, sides: vec![[Side::default(); 2]; self.rows.len()], x };
+        let mut state =
+            Interior { problem: self, rows, sides: vec![[Side::default(); 2]; self.rows.len()], x };
         state.start();
         for _ in 0..ITERATIONS {
+            #[cfg(test)]
+            super::optimise::ITER.with(|c| c.set(c.get() + 1));
             if state.step(&mut matrix, accuracy)? {
                 break;
             }
@@ -492,13 +495,17 @@ mod tests {
             .collect();
         let solution = Problem { blocks, cyclic: true, rows: rows.clone() }.solve(1e-9).unwrap();
         let worst = rows.iter().fold(0.0_f64, |m, r| {
-            let a: f64 = (0..8).map(|j| r.coefficients[j] * solution.x[(r.block * BLOCK + j) % (blocks * BLOCK)]).sum();
+            let a: f64 = (0..8)
+                .map(|j| r.coefficients[j] * solution.x[(r.block * BLOCK + j) % (blocks * BLOCK)])
+                .sum();
             m.max((a + r.value).abs())
         });
         assert!((worst - solution.t).abs() < 1e-7, "{worst} {}", solution.t);
         // Optimal: as many active rows as unknowns, and no direction that lowers all of them.
         let active = rows.iter().filter(|r| {
-            let a: f64 = (0..8).map(|j| r.coefficients[j] * solution.x[(r.block * BLOCK + j) % (blocks * BLOCK)]).sum();
+            let a: f64 = (0..8)
+                .map(|j| r.coefficients[j] * solution.x[(r.block * BLOCK + j) % (blocks * BLOCK)])
+                .sum();
             (a + r.value).abs() > solution.t - 1e-6
         });
         let count = active.count();

@@ -13,6 +13,10 @@ const SHARE: f64 = 0.97;
 pub(super) const SEARCH_ITERATIONS: usize = 24;
 /// Iterations of the last polish.
 const POLISH_ITERATIONS: usize = 16;
+/// Arcs in which one is taken away.
+pub(super) const WINDOW: usize = 4;
+/// Exchanges of arcs between places for one number of arcs.
+const EXCHANGES: usize = 3;
 /// Arcs whose deviation is at least this share of the worst are active.
 const ACTIVE: f64 = 0.9;
 
@@ -114,23 +118,27 @@ fn grow(
     limit: f64,
     most: usize,
 ) -> Option<(Chain, f64)> {
-    let stop = Stop { target: limit, iterations: SEARCH_ITERATIONS, gain: 5e-3, smooth: true };
     loop {
-        let (next, worst) = improve(chain, stretch, goal, &stop);
+        let (next, worst) = settle(chain, stretch, goal, limit);
         if worst <= limit {
             return Some((next, worst));
         }
         if next.len() >= most {
             return None;
         }
-        chain = insert(next, stretch, goal);
+        chain = insert(&next, stretch, goal);
     }
 }
 
 /// One more arc in the run of active arcs about the worst one.
-fn insert(chain: Chain, stretch: &Stretch<'_>, goal: &Goal) -> Chain {
+fn insert(chain: &Chain, stretch: &Stretch<'_>, goal: &Goal) -> Chain {
+    let (first, count) = active_run(chain, &measures(chain, stretch, goal));
+    respread(chain, stretch, first, count, count + 1)
+}
+
+/// First and number of the arcs about the worst one that are nearly as bad.
+fn active_run(chain: &Chain, measures: &[f64]) -> (usize, usize) {
     let n = chain.len();
-    let measures = measures(&chain, stretch, goal);
     let (worst_arc, worst) =
         measures.iter().enumerate().fold((0, 0.0), |(i, m), (j, &v)| if v > m { (j, v) } else { (i, m) });
     let active = |i: usize| measures[i] >= ACTIVE * worst && !chain.is_exact(i);
@@ -142,7 +150,54 @@ fn insert(chain: Chain, stretch: &Stretch<'_>, goal: &Goal) -> Chain {
         first = (first + n - 1) % n;
         count += 1;
     }
-    respread(&chain, stretch, first, count, count + 1)
+    (first, count)
+}
+
+/// The windows of `width` arcs by ascending deviation.
+pub(super) fn slack(chain: &Chain, measures: &[f64], width: usize) -> Vec<usize> {
+    let n = chain.len();
+    let starts = if chain.closed { n } else { (n + 1).saturating_sub(width) };
+    let mut places: Vec<(usize, f64)> = (0..starts)
+        .filter(|&i| (0..width).all(|j| !chain.is_exact((i + j) % n)))
+        .map(|i| (i, (0..width).map(|j| measures[(i + j) % n] * measures[(i + j) % n]).sum()))
+        .collect();
+    places.sort_by(|a, b| a.1.total_cmp(&b.1));
+    places.into_iter().map(|(i, _)| i).collect()
+}
+
+/// The same number of arcs, one more where the deviation is worst and one fewer where it is least.
+fn exchanged(chain: &Chain, stretch: &Stretch<'_>, goal: &Goal) -> Option<Chain> {
+    let n = chain.len();
+    let measures = measures(chain, stretch, goal);
+    let (first, count) = active_run(chain, &measures);
+    let apart = |i: usize| (0..WINDOW).all(|j| ((i + j) % n + n - first) % n >= count);
+    let from = slack(chain, &measures, WINDOW.min(n)).into_iter().find(|&i| apart(i))?;
+    let grown = respread(chain, stretch, first, count, count + 1);
+    // A closed chain is counted from arc `first` now.
+    let moved = match (chain.closed, from > first) {
+        (true, _) => (from + n - first) % n + 1,
+        (false, true) => from + 1,
+        (false, false) => from,
+    };
+    Some(respread(&grown, stretch, moved, WINDOW, WINDOW - 1))
+}
+
+/// Improves a chain to the limit, exchanging arcs between places while that helps.
+pub(super) fn settle(chain: Chain, stretch: &Stretch<'_>, goal: &Goal, limit: f64) -> (Chain, f64) {
+    let stop = Stop { target: limit, iterations: SEARCH_ITERATIONS, gain: 5e-3, smooth: true };
+    let (mut chain, mut worst) = improve(chain, stretch, goal, &stop);
+    for _ in 0..EXCHANGES {
+        if worst <= limit {
+            break;
+        }
+        let Some(other) = exchanged(&chain, stretch, goal) else { break };
+        let (other, found) = improve(other, stretch, goal, &stop);
+        if found >= worst {
+            break;
+        }
+        (chain, worst) = (other, found);
+    }
+    (chain, worst)
 }
 
 /// How bad every arc is: its distance from the middle of the band and the tangent errors at its ends.
@@ -157,7 +212,13 @@ pub(super) fn measures(chain: &Chain, stretch: &Stretch<'_>, goal: &Goal) -> Vec
 }
 
 /// Replaces `count` arcs from arc `first` on by `new` arcs at equal shares of the density.
-pub(super) fn respread(chain: &Chain, stretch: &Stretch<'_>, first: usize, count: usize, new: usize) -> Chain {
+pub(super) fn respread(
+    chain: &Chain,
+    stretch: &Stretch<'_>,
+    first: usize,
+    count: usize,
+    new: usize,
+) -> Chain {
     let n = chain.len();
     let mut rotated = rotate(chain, stretch, first);
     let first = if chain.closed { 0 } else { first };

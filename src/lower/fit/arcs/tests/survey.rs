@@ -238,7 +238,9 @@ fn exhaustive(tube: &Tube<'_>, n: usize) -> usize {
 #[test]
 #[ignore = "prints times; run with --ignored --nocapture in release"]
 fn speed() {
-    for (left, right, exact) in [(0.01, 0.01, false), (0.01, 0.01, true), (0.01, 0.0, false), (0.0001, 0.0001, false)] {
+    for (left, right, exact) in
+        [(0.01, 0.01, false), (0.01, 0.01, true), (0.01, 0.0, false), (0.0001, 0.0001, false)]
+    {
         let curve = super::paper();
         let tube = Tube { curve: curve.as_ref(), left, right };
         let grid = Grid { step: 1e-5, centre_step: 1e-5, angle_step: 0.001 };
@@ -249,6 +251,13 @@ fn speed() {
             n = arcs(&tube, &grid, exact, None).unwrap().primitives.len();
             time = time.min(cpu_ms() - clock);
         }
+        println!(
+            "lp {} it {}",
+            super::super::optimise::COUNT.get() / 15,
+            super::super::optimise::ITER.get() / 15
+        );
+        super::super::optimise::COUNT.set(0);
+        super::super::optimise::ITER.set(0);
         println!("speed {left} {right} {exact} n {n} {time:.2} ms");
     }
 }
