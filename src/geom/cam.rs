@@ -305,6 +305,11 @@ impl Cam {
     pub fn pressure_angle(&self, theta: Angle) -> Angle {
         Angle::radians(self.geometry.linkage.pressure_angle(self.lift(theta)))
     }
+    /// Pressure angle that belongs to a lift and its velocity.
+    #[must_use]
+    pub fn pressure_angle_of(&self, lift: Lift) -> Angle {
+        Angle::radians(self.geometry.linkage.pressure_angle(lift))
+    }
     /// Frenet data of a flank at a cam angle.
     #[must_use]
     pub fn contact(&self, flank: Flank, theta: Angle) -> Frenet {

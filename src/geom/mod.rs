@@ -11,6 +11,7 @@ pub mod follower;
 pub mod measure;
 pub mod motion;
 pub mod parallel;
+pub mod project;
 mod quadrature;
 pub mod surface;
 mod tridiagonal;

@@ -55,30 +55,26 @@ fn forwardness(linkage: &Linkage, l: Lift, shift: f64, base: f64) -> f64 {
 }
 
 impl Criterion {
-    fn holds(self, definition: &CamDefinition, base: f64, lifts: &[Lift]) -> bool {
+    fn holds(self, definition: &CamDefinition, base: f64, samples: &Samples) -> bool {
         let Ok(linkage) = Linkage::new(&definition.follower, base) else { return false };
-        let forwards = |l: &Lift| {
-            definition
-                .flanks()
-                .iter()
-                .all(|flank| forwardness(&linkage, *l, flank.shift(linkage.roller), base) > 0.0)
+        let swings = || samples.largest(|l| linkage.swing(l).map_or(-1.0, |(psi, end)| psi - end)).value < 0.0;
+        let forwards = |flank: &Flank| {
+            samples.smallest(|l| forwardness(&linkage, l, flank.shift(linkage.roller), base)).value > 0.0
         };
         let limit = definition.max_pressure_angle.rad();
-        let swings = |l: &Lift| linkage.swing(*l).is_none_or(|(psi, end)| psi < end);
-        let presses = |l: &Lift| linkage.pressure_angle(*l).abs() <= limit;
-        let acceptable =
-            |l: &Lift| swings(l) && forwards(l) && (matches!(self, Criterion::Undercut) || presses(l));
-        lifts.iter().all(acceptable)
+        let presses = || samples.largest(|l| linkage.pressure_angle(l).abs()).value <= limit;
+        let pressed = matches!(self, Criterion::Undercut) || presses();
+        pressed && swings() && definition.flanks().iter().all(forwards)
     }
     /// The smallest base radius that satisfies it: the first that does on a scan upwards, then bisection.
-    fn smallest_base(self, definition: &CamDefinition, lifts: &[Lift]) -> Option<f64> {
+    fn smallest_base(self, definition: &CamDefinition, samples: &Samples) -> Option<f64> {
         const GROWTH: f64 = 1.15;
         const STEPS: usize = 90;
-        let largest_lift = lifts.iter().map(|l| l.s.abs() + l.v.abs() + l.a.abs()).fold(0.0, f64::max);
+        let largest_lift = samples.largest(|l| l.s.abs() + l.v.abs() + l.a.abs()).value;
         let mut low = 1e-3 * definition.base.min(largest_lift.max(1e-3));
         let mut high = low;
         let mut tries = 0;
-        while !self.holds(definition, high, lifts) {
+        while !self.holds(definition, high, samples) {
             low = high;
             high *= GROWTH;
             tries += 1;
@@ -88,7 +84,7 @@ impl Criterion {
         }
         while high - low > BASE_ACCURACY * high {
             let mid = 0.5 * (low + high);
-            if self.holds(definition, mid, lifts) { high = mid } else { low = mid }
+            if self.holds(definition, mid, samples) { high = mid } else { low = mid }
         }
         Some(high * (1.0 + BASE_ACCURACY))
     }
@@ -99,8 +95,7 @@ impl Cam {
     /// limit and the flanks free of undercut; `None` when there is none.
     #[must_use]
     pub fn smallest_base(&self) -> Option<f64> {
-        let lifts: Vec<Lift> = Samples::new(&self.geometry).points().iter().map(|p| p.lift).collect();
-        Criterion::Pressure.smallest_base(&self.definition, &lifts)
+        Criterion::Pressure.smallest_base(&self.definition, &Samples::new(&self.geometry))
     }
 }
 
@@ -142,8 +137,7 @@ fn undercut(
         if linkage.roller > 0.0 { -shift * linkage.frenet(l).k } else { linkage.frenet(l).speed }
     });
     let radius = if linkage.roller > 0.0 { -linkage.roller / reference.value } else { reference.value };
-    let lifts: Vec<Lift> = samples.points().iter().map(|p| p.lift).collect();
-    let smallest_base = Criterion::Undercut.smallest_base(definition, &lifts);
+    let smallest_base = Criterion::Undercut.smallest_base(definition, samples);
     Some(CamIssue::Undercut { flank, at: worst.at, from, to, radius, roller: linkage.roller, smallest_base })
 }
 
