@@ -55,7 +55,11 @@ pub(super) fn strokes(program: &TargetProgram, detail: Detail) -> Vec<Stroke> {
         let Some(to) = end_of(program, motion) else { continue };
         if known & X_AND_Y == X_AND_Y {
             let points = path(program, here, motion, detail);
-            found.push(Stroke { what: usage(program, here, to, motion, block.piece), piece: block.piece, points });
+            found.push(Stroke {
+                what: usage(program, here, to, motion, block.piece),
+                piece: block.piece,
+                points,
+            });
         }
         known |= if let Motion::Rapid { axes, .. } = motion { *axes } else { X_AND_Y };
         here = to;
@@ -107,7 +111,9 @@ fn path(program: &TargetProgram, from: Position, motion: &Motion, detail: Detail
     match motion {
         Motion::Rapid { to, .. } | Motion::Line { to, .. } => straight(program, from, *to, detail),
         Motion::Arc { to, centre, clockwise, .. } => arc(program, (from, *to), *centre, *clockwise, detail),
-        Motion::Nurbs { curve, .. } => nurbs(program, *curve).map_or_else(Vec::new, |n| spline(program, n, detail)),
+        Motion::Nurbs { curve, .. } => {
+            nurbs(program, *curve).map_or_else(Vec::new, |n| spline(program, n, detail))
+        }
     }
 }
 
@@ -124,7 +130,13 @@ fn straight(program: &TargetProgram, from: Position, to: Position, detail: Detai
     (0..=steps).map(|i| at(i as f64 / steps as f64)).collect()
 }
 
-fn arc(program: &TargetProgram, (from, to): (Position, Position), centre: [i64; 2], clockwise: bool, detail: Detail) -> Vec<Point2> {
+fn arc(
+    program: &TargetProgram,
+    (from, to): (Position, Position),
+    centre: [i64; 2],
+    clockwise: bool,
+    detail: Detail,
+) -> Vec<Point2> {
     const PER_STEP: f64 = 0.03;
     let grid = &program.capabilities.grid;
     let (a, b) = (in_part(program, from), in_part(program, to));
@@ -164,9 +176,11 @@ fn spline(program: &TargetProgram, n: &Nurbs, detail: Detail) -> Vec<Point2> {
         let (a, b) = (n.knots[span], n.knots[span + 1]);
         let first = usize::from(!points.is_empty());
         if b > a {
-            points.extend((first..=steps).map(|i| {
-                de_boor(&control, &n.knots, degree, span, a + (b - a) * i as f64 / steps as f64)
-            }));
+            points.extend(
+                (first..=steps).map(|i| {
+                    de_boor(&control, &n.knots, degree, span, a + (b - a) * i as f64 / steps as f64)
+                }),
+            );
         }
     }
     points

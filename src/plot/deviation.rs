@@ -68,11 +68,12 @@ fn panel(canvas: &mut Canvas, view: &DeviationView, piece: &PieceDeviation, at: 
     let (factor, unit) = small(view.units);
     let mm = view.units.in_mm();
     let (low, high) = extremes(piece);
-    let y =
-        Scale::around((-piece.band.0).min(low) * factor * 1.08, piece.band.1.max(high) * factor * 1.08, 6);
-    let x_all = Scale::around(0.0, piece.length / mm, 14);
-    let chart =
-        Chart { at, size: (WIDTH - LEFT - 36.0, PANEL), x: Scale { high: piece.length / mm, ..x_all }, y };
+    let (low_y, high_y) = ((-piece.band.0).min(low) * factor, piece.band.1.max(high) * factor);
+    let room = 0.1 * (high_y - low_y);
+    let y = Scale::between(low_y - room, high_y + room);
+    let length = piece.length / mm;
+    let x = Scale::fixed(0.0, length, super::chart::round_step(length / 16.0));
+    let chart = Chart { at, size: (WIDTH - LEFT - 36.0, PANEL), x, y };
     chart.axes(canvas, true);
     chart.shade_y(canvas, -piece.band.0 * factor, piece.band.1 * factor, "#2f9e6e1f");
     for limit in [-piece.band.0, piece.band.1] {

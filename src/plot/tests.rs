@@ -5,8 +5,8 @@ use crate::geom::cam::{Cam, CamDefinition, Flank};
 use crate::geom::follower::{ArmSide, Follower};
 use crate::geom::motion::{Law, Motion, Segment, SegmentLaw};
 use crate::ir::{
-    Band, CamEntity, Cut, CutterKind, Entry, Feed, Interpolation, Origin, Profile, ProfileTarget, Program,
-    RoughCam, Spindle, Step, StepKind, Stock, StockShape, Tool,
+    Band, CamEntity, Cut, CutterKind, Entry, Feed, Interpolation, Machine, Origin, Profile, ProfileTarget,
+    Program, Rotary, RoughCam, Spindle, Step, StepKind, Stock, StockShape, Tool,
 };
 use crate::source::{FileId, MemoryFiles, SourceMap, Span};
 use crate::units::{Angle, LengthUnit};
@@ -138,7 +138,8 @@ fn pictures(interpolation: Interpolation, post: &str) -> Vec<(String, Figure)> {
     let cl = crate::plan::plan(&program, &mut sink).expect("planned");
     let dialect =
         crate::post::load(post, &MemoryFiles::default(), &mut SourceMap::default()).expect("built in");
-    let capabilities = dialect.capabilities(LengthUnit::Millimetre, program.machines.first()).expect("complete");
+    let capabilities =
+        dialect.capabilities(LengthUnit::Millimetre, program.machines.first()).expect("complete");
     let target = crate::lower::lower(&cl, &capabilities, &mut sink).expect("lowered");
     [("cam", What::Cam(None)), ("path", What::Path), ("deviation", What::Deviation)]
         .into_iter()
@@ -172,8 +173,11 @@ fn every_kind_of_cam_gives_the_same_document_twice() {
 
 #[test]
 fn a_lowered_program_has_all_three_pictures() {
-    let cases =
-        [(Interpolation::Linear, "grbl"), (Interpolation::Circular, "linuxcnc"), (Interpolation::RTheta, "linuxcnc")];
+    let cases = [
+        (Interpolation::Linear, "grbl"),
+        (Interpolation::Circular, "linuxcnc"),
+        (Interpolation::RTheta, "linuxcnc"),
+    ];
     for (interpolation, post) in cases {
         for (_, figure) in pictures(interpolation, post) {
             parses(&figure);
@@ -215,27 +219,4 @@ fn what_is_not_there_is_said() {
     assert_eq!(draw(&What::Deviation, &empty, None, None), Err(PlotError::NoContour));
     let wrong = draw(&What::Cam(Some("C9".into())), &program(Interpolation::Linear), None, None);
     assert_eq!(wrong.map_err(|e| e.to_string()), Err("the program has no cam C9; it has C1".into()));
-}
-
-#[test]
-fn scratch_write_pictures() {
-    let dir = std::path::Path::new("/tmp/plots");
-    let mut all: Vec<(String, Figure)> = Vec::new();
-    for (name, cam) in cams() {
-        let view =
-            CamView { name, cam: &cam, units: LengthUnit::Millimetre, blank: None, tracks: Vec::new() };
-        all.push((name.into(), super::cam(&view)));
-    }
-    for (i, tag, post) in [
-        (Interpolation::Linear, "lin", "linuxcnc"),
-        (Interpolation::Circular, "arc", "linuxcnc"),
-        (Interpolation::RTheta, "rt", "linuxcnc"),
-        (Interpolation::Nurbs, "nurbs", "linuxcnc"),
-    ] {
-        all.extend(pictures(i, post).into_iter().map(|(n, f)| (format!("{tag}-{n}"), f)));
-    }
-    for (name, figure) in all {
-        let _ = std::fs::File::create(dir.join(format!("{name}.png")))
-            .and_then(|mut f| std::io::Write::write_all(&mut f, &figure.png(1.0).expect("png")));
-    }
 }

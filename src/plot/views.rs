@@ -3,11 +3,11 @@
 use super::blocks::{Detail, Stroke, Use, strokes};
 use super::{CamView, DeviationView, Figure, PathView, PieceDeviation, PlotError, Track};
 use crate::cl::Cl;
+use crate::geom::Side;
 use crate::geom::cam::Flank;
 use crate::geom::curve::{CurveRef, spans};
 use crate::geom::measure::arc_length;
 use crate::geom::project::Projector;
-use crate::geom::Side;
 use crate::ir::{self, Interpolation, StockShape};
 use crate::target::{Piece, PieceId, TargetProgram};
 

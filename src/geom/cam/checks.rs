@@ -57,7 +57,8 @@ fn forwardness(linkage: &Linkage, l: Lift, shift: f64, base: f64) -> f64 {
 impl Criterion {
     fn holds(self, definition: &CamDefinition, base: f64, samples: &Samples) -> bool {
         let Ok(linkage) = Linkage::new(&definition.follower, base) else { return false };
-        let swings = || samples.largest(|l| linkage.swing(l).map_or(-1.0, |(psi, end)| psi - end)).value < 0.0;
+        let swings =
+            || samples.largest(|l| linkage.swing(l).map_or(-1.0, |(psi, end)| psi - end)).value < 0.0;
         let forwards = |flank: &Flank| {
             samples.smallest(|l| forwardness(&linkage, l, flank.shift(linkage.roller), base)).value > 0.0
         };
