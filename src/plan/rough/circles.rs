@@ -32,7 +32,8 @@ pub(super) fn full(job: &Job, plan: &mut Plan) -> f64 {
         let radius = left + job.cutter;
         let Some(start) = touch(plan, job, radius, ccw) else { return left };
         if let Some(circle) = CircularArc::circle(Point2::origin(), radius, start, ccw) {
-            plan.cut(Arc::new(circle), job.part, job.band);
+            let circle: CurveRef = Arc::new(circle);
+            plan.round(&circle, job.part, job.band);
         }
     }
     plan.engagement = job.step;
@@ -209,7 +210,7 @@ impl<'a> Circles<'a> {
         let curve = restarted(&self.centre, start);
         let first = curve.at(curve.domain().0);
         plan.down(first.p - first.t * way_out(first.p, -first.t, self.job.outside));
-        plan.cut(curve, self.job.part, super::contour_band(self.job, self.job.band));
+        plan.round(&curve, self.job.part, super::contour_band(self.job, self.job.band));
         let away: Vec2 = first.n() * self.job.part.opposite().sign();
         plan.up(first.p + away * super::CLEAR);
     }

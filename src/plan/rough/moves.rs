@@ -1,6 +1,8 @@
 //! A roughing plan of one level, as moves in the plane.
 
-use crate::geom::curve::{CurveRef, ends};
+use std::sync::Arc;
+
+use crate::geom::curve::{Chain, CurveRef, Part, ends};
 use crate::geom::{Point2, Side, measure};
 use crate::ir::Band;
 
@@ -72,6 +74,11 @@ impl Plan {
     pub fn cut(&mut self, curve: CurveRef, part: Side, band: Band) {
         self.engaged += self.follow(curve, part, band);
     }
+    /// Once round the closed `curve` from its start, and a little over it. What is cut is open, so that its
+    /// start stays where the way to it leads.
+    pub fn round(&mut self, curve: &CurveRef, part: Side, band: Band) {
+        self.cut(overlapping(curve), part, band);
+    }
     /// Along `curve` where nothing is left to cut.
     pub fn run(&mut self, curve: CurveRef, part: Side, band: Band) {
         self.links += self.follow(curve, part, band);
@@ -87,4 +94,16 @@ impl Plan {
         self.moves.push(Move::Cut { curve, part, band });
         length
     }
+}
+
+/// A closed curve with its first millimetre once more at its end.
+fn overlapping(curve: &CurveRef) -> CurveRef {
+    const OVERLAP: f64 = 1.0;
+    const JOIN: f64 = 1e-6;
+    let (first, last) = curve.domain();
+    let speed = curve.at(first).speed.abs().max(f64::MIN_POSITIVE);
+    let more = (OVERLAP / speed).min(0.25 * (last - first));
+    let again = Part::new(curve.clone(), first, first + more).map(|p| Arc::new(p) as CurveRef);
+    let pieces = [Some(curve.clone()), again].into_iter().flatten().collect();
+    Chain::new(pieces, JOIN).map_or_else(|_| curve.clone(), |chain| Arc::new(chain))
 }

@@ -212,7 +212,7 @@ impl<'a> Rings<'a> {
             let first = round.at(round.domain().0);
             plan.down(first.p - first.t * way_out(first.p, -first.t, self.job.outside));
         }
-        plan.cut(round, self.job.part, band);
+        plan.round(&round, self.job.part, band);
     }
 
     /// Parameter of the point where a tangent from `from` meets the curve in its direction of travel; where
