@@ -183,3 +183,25 @@ fn the_report_follows_its_schema() {
     assert_eq!(operation["source"]["line"], 13);
     assert!(operation["blocks"].as_u64() >= operation["pieces"][0]["lower_bound"].as_u64());
 }
+
+#[test]
+fn pictures_are_drawn_in_the_form_of_their_name() {
+    let scratch = Scratch::new("plot");
+    scratch.write("plate.apt", PLATE);
+    for what in ["cam", "path", "deviation"] {
+        let output = scratch.run(&["plot", "plate.apt", "--what", what]);
+        assert_eq!(code(&output), 0, "{what}: {}", stderr(&output));
+        assert!(scratch.read(&format!("plate.{what}.svg")).contains("<svg"), "{what}");
+    }
+    assert_eq!(code(&scratch.run(&["plot", "plate.apt", "-o", "plate.png", "--scale", "0.5"])), 0);
+    assert!(std::fs::read(scratch.0.join("plate.png")).expect("a file").starts_with(b"\x89PNG"));
+    let cases: [(&[&str], &str); 2] = [
+        (&["plot", "plate.apt", "-o", "plate.jpg"], "E0913"),
+        (&["plot", "plate.apt", "--cam", "C9"], "E0912"),
+    ];
+    for (args, id) in cases {
+        let output = scratch.run(args);
+        assert_eq!(code(&output), 2, "{args:?}: {}", stderr(&output));
+        assert!(stderr(&output).contains(id), "{args:?}: {}", stderr(&output));
+    }
+}

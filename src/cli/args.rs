@@ -44,7 +44,8 @@ pub enum Verb {
     Check(CheckArgs),
     /// Print the page of a diagnostic code, or list all codes.
     Explain(ExplainArgs),
-    /// Draw a cam, its pitch curve and path, or its diagrams.
+    /// Draw a cam, the cutter's path, or its deviation from the exact curves.
+    #[command(after_help = PLOT_EXAMPLES)]
     Plot(PlotArgs),
 }
 
@@ -58,6 +59,11 @@ Examples:
   partwright build plate.apt --post grbl -o - | grep G1
   partwright build plate.apt --emit cl              prints the cutter location data
   partwright build plate.apt --post linuxcnc --deps plate.d --deps-format make";
+
+const PLOT_EXAMPLES: &str = "\
+Examples:
+  partwright plot plate.apt -o plate.svg
+  partwright plot plate.apt --what deviation --post grbl -o deviation.png";
 
 /// Arguments of `build`.
 #[derive(Debug, Args)]
@@ -128,18 +134,38 @@ pub struct ExplainArgs {
 /// Arguments of `plot`.
 #[derive(Debug, Args)]
 pub struct PlotArgs {
-    /// The program file.
+    /// The program file; `-` is standard input.
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
     /// What to draw.
-    #[arg(long, value_name = "WHAT", default_value = "cam")]
-    pub what: String,
-    /// The picture, .svg or .png; `-` is standard output (SVG).
+    #[arg(long, value_enum, default_value_t = Picture::Cam, value_name = "WHAT")]
+    pub what: Picture,
+    /// The cam to draw, when the program has several.
+    #[arg(long, value_name = "NAME")]
+    pub cam: Option<String>,
+    /// The picture: FILE.svg or FILE.png; `-` is standard output (SVG). Default: STEM.WHAT.svg beside the source.
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
+    /// Pixels of a PNG for every unit of the drawing.
+    #[arg(long, default_value_t = 2.0, value_name = "FACTOR")]
+    pub scale: f32,
+    /// The controller whose path is drawn; without it the program's first, or linuxcnc.
+    #[arg(long, value_name = "NAME|FILE")]
+    pub post: Option<String>,
     /// What all verbs that compile take.
     #[command(flatten)]
     pub common: CommonArgs,
+}
+
+/// Pictures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Picture {
+    /// A cam with its pitch curve, the cutter's path, and the diagrams of motion, pressure angle and curvature.
+    Cam,
+    /// The cutter's path.
+    Path,
+    /// How far the blocks are from the exact curves.
+    Deviation,
 }
 
 /// Stages that can be printed.

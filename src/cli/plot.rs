@@ -1,15 +1,88 @@
 //! `partwright plot`.
 
+use std::path::{Path, PathBuf};
+
 use super::Status;
-use super::args::PlotArgs;
-use super::build;
+use super::args::{Picture, PlotArgs};
+use super::build::{self, Compiled};
+use super::disk::STDIN;
 use super::messages::Messages;
+use super::output::{self, Product, is_stdout};
 use crate::diag::Diagnostic;
+use crate::diag::codes::command as codes;
 use crate::driver;
+use crate::plot::{self, Figure, PlotError, What};
+
+/// The controller whose path is drawn when nothing names one.
+const DEFAULT_POST: &str = "linuxcnc";
 
 /// Compiles the program and draws it.
 pub fn plot(args: &PlotArgs, messages: Messages) -> Result<Status, Diagnostic> {
-    let options = driver::Options { check_only: true, ..build::driver_options(&args.common)? };
+    let path = destination(args);
+    let form = Form::of(&path)?;
+    let options = driver::Options {
+        posts: args.post.iter().cloned().collect(),
+        default_post: Some(DEFAULT_POST.to_owned()),
+        ..build::driver_options(&args.common)?
+    };
     let compiled = build::compile(core::slice::from_ref(&args.file), &options, &args.common, messages)?;
-    Ok(build::show(&compiled, messages))
+    let status = build::show(&compiled, messages);
+    let Some(one) = compiled.first().filter(|_| status == Status::Done) else { return Ok(status) };
+    let figure = draw(args, one).map_err(|e| no_picture(&e))?;
+    let bytes = match form {
+        Form::Svg => figure.svg().as_bytes().to_vec(),
+        Form::Png => figure.png(args.scale).map_err(|e| no_picture(&e))?,
+    };
+    output::write_all(&[Product { path, bytes }])?;
+    Ok(Status::Done)
+}
+
+/// Forms of pictures.
+enum Form {
+    Svg,
+    Png,
+}
+
+impl Form {
+    fn of(path: &Path) -> Result<Form, Diagnostic> {
+        let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
+        match extension.as_deref() {
+            _ if is_stdout(path) => Ok(Form::Svg),
+            Some("svg") => Ok(Form::Svg),
+            Some("png") => Ok(Form::Png),
+            _ => Err(Diagnostic::global(
+                &codes::PICTURE_FORM,
+                format!("{} is neither a .svg nor a .png file", path.display()),
+            )),
+        }
+    }
+}
+
+fn destination(args: &PlotArgs) -> PathBuf {
+    if let Some(path) = &args.output {
+        return path.clone();
+    }
+    if args.file.as_os_str() == STDIN {
+        return PathBuf::from("-");
+    }
+    args.file.with_extension(match args.what {
+        Picture::Cam => "cam.svg",
+        Picture::Path => "path.svg",
+        Picture::Deviation => "deviation.svg",
+    })
+}
+
+fn draw(args: &PlotArgs, one: &Compiled) -> Result<Figure, PlotError> {
+    let what = match args.what {
+        Picture::Cam => What::Cam(args.cam.clone()),
+        Picture::Path => What::Path,
+        Picture::Deviation => What::Deviation,
+    };
+    let target = one.build.outputs.first().and_then(|o| o.target.as_ref());
+    let program = one.build.ir.as_ref().ok_or(PlotError::NoPath)?;
+    plot::draw(&what, program, one.build.cl.as_ref(), target)
+}
+
+fn no_picture(error: &PlotError) -> Diagnostic {
+    Diagnostic::global(&codes::NO_PICTURE, error.to_string())
 }

@@ -24,6 +24,8 @@ pub struct Options {
     pub defines: Vec<(String, String)>,
     /// Posts by name or file; when empty, the program's `MACHIN` statements decide.
     pub posts: Vec<String>,
+    /// The post when neither [`Options::posts`] nor the program names one; without it that is an error.
+    pub default_post: Option<String>,
     /// Stop before lowering: all checks of the program, no output.
     pub check_only: bool,
     /// Keep the syntax tree of the main file.
@@ -119,15 +121,16 @@ fn stages(build: &mut Build, file: FileId, files: &dyn FileProvider, options: &O
     back(build, files, options, sink);
 }
 
-/// From the evaluated program on.
+/// From the evaluated program on. What is wrong with the posts of the command line is said in any case.
 fn back(build: &mut Build, files: &dyn FileProvider, options: &Options, sink: &mut Sink) {
-    let Some(ir) = &build.ir else { return };
-    build.cl = plan::plan(ir, sink);
-    let Some(cl) = &build.cl else { return };
+    build.cl = build.ir.as_ref().and_then(|ir| plan::plan(ir, sink));
     if options.check_only {
         return;
     }
-    let wanted = targets::wanted(&options.posts, &ir.machines, sink);
+    let (Some(ir), Some(cl)) = (&build.ir, &build.cl) else {
+        return targets::check(&options.posts, files, &mut build.sources, sink);
+    };
+    let wanted = targets::wanted(options, &ir.machines, sink);
     build.outputs = targets::make(cl, &wanted, files, &mut build.sources, sink);
 }
 

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use rayon::prelude::*;
 
-use super::Output;
+use super::{Options, Output};
 use crate::arena::Arena;
 use crate::cl::Cl;
 use crate::diag::codes::command as codes;
@@ -23,10 +23,12 @@ pub(super) struct Wanted<'a> {
 }
 
 /// The posts of the command line, or else those of the program.
-pub(super) fn wanted<'a>(posts: &[String], machines: &'a [Machine], sink: &mut Sink) -> Vec<Wanted<'a>> {
+pub(super) fn wanted<'a>(options: &Options, machines: &'a [Machine], sink: &mut Sink) -> Vec<Wanted<'a>> {
     let of_machine = |name: &str| machines.iter().find(|m| m.post.eq_ignore_ascii_case(&short_name(name)));
-    if !posts.is_empty() {
-        return posts.iter().map(|name| Wanted { name: name.clone(), machine: of_machine(name) }).collect();
+    let default = options.default_post.iter().filter(|_| machines.is_empty() && options.posts.is_empty());
+    let named: Vec<&String> = options.posts.iter().chain(default).collect();
+    if !named.is_empty() {
+        return named.into_iter().map(|n| Wanted { name: n.clone(), machine: of_machine(n) }).collect();
     }
     if machines.is_empty() {
         sink.push(Diagnostic::global(&codes::NO_POST, "no post is named").help(
@@ -34,6 +36,15 @@ pub(super) fn wanted<'a>(posts: &[String], machines: &'a [Machine], sink: &mut S
         ));
     }
     machines.iter().map(|m| Wanted { name: m.post.clone(), machine: Some(m) }).collect()
+}
+
+/// Reports what is wrong with posts that will not be used, because the program has errors.
+pub(super) fn check(posts: &[String], files: &dyn FileProvider, sources: &mut SourceMap, sink: &mut Sink) {
+    for name in posts {
+        if let Err(errors) = post::load(name, files, sources) {
+            errors.into_iter().for_each(|e| sink.push(e));
+        }
+    }
 }
 
 /// `shop/mill.post.toml` is called `mill`.

@@ -76,6 +76,20 @@ pub const BAD_THREADS: Code = Code {
     page: include_str!("../../../docs/diagnostics/E0911.md"),
 };
 
+/// there is nothing to draw.
+pub const NO_PICTURE: Code = Code {
+    id: "E0912",
+    title: "there is nothing to draw",
+    page: include_str!("../../../docs/diagnostics/E0912.md"),
+};
+
+/// unknown form of picture.
+pub const PICTURE_FORM: Code = Code {
+    id: "E0913",
+    title: "unknown form of picture",
+    page: include_str!("../../../docs/diagnostics/E0913.md"),
+};
+
 /// All codes of this area.
 pub const ALL: &[&Code] = &[
     &CANNOT_READ,
@@ -89,4 +103,6 @@ pub const ALL: &[&Code] = &[
     &OUTPUT_CLASH,
     &BAD_DEFINE,
     &BAD_THREADS,
+    &NO_PICTURE,
+    &PICTURE_FORM,
 ];
