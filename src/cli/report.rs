@@ -109,12 +109,15 @@ fn deviation(certificate: &Certificate, units: LengthUnit) -> Option<String> {
     Some(format!("at most {} into and {} {} off the part", shown(into), shown(out), units.symbol()))
 }
 
-/// Blocks of the contours beside the proven lower bounds, where all are known.
+/// Blocks of the contours, and the proven lower bound where it is known for all of them.
 fn bound(certificate: &Certificate) -> Option<String> {
-    let pieces = || certificate.operations.iter().flat_map(|o| &o.pieces).filter(|p| p.lower_bound.is_some());
+    let pieces = || certificate.operations.iter().flat_map(|o| &o.pieces);
     let blocks: u32 = pieces().map(|p| p.blocks).sum();
-    let least: u32 = pieces().filter_map(|p| p.lower_bound).sum();
-    (blocks > 0).then(|| format!("{blocks} contour blocks (no fewer than {least} can do it)"))
+    let least: Option<u32> = pieces().map(|p| p.lower_bound).sum();
+    (blocks > 0).then(|| match least {
+        Some(least) => format!("{blocks} contour blocks ({least} is the least possible)"),
+        None => format!("{blocks} contour blocks"),
+    })
 }
 
 fn duration(seconds: f64) -> String {
