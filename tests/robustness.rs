@@ -94,8 +94,78 @@ fn loops_and_macros_that_never_end_are_stopped() {
     }
 }
 
+/// A program that uses every stage.
+const WHOLE: &str = "\
+PARTNO robustness
+UNITS/ MM
+PARAM/ LIFT = 20mm, MIN, 5mm, MAX, 30mm, 'lift'
+F1 = FOLLOW/ TRANSL, ROLLER, 8, OFFSET, 2
+M1 = MOTION/ DWELL, 30, RISE, 120, LIFT, MODSIN, DWELL, 60, RETURN, 120, LIFT, CYCLO, DWELL, 30
+C1 = CAM/ PLATE, BASE, 20, FOLLOW, F1, MOTION, M1, MAXPA, 45
+T1 = CUTTER/ FLAT, 16, NUMBER, 1, FLUTES, 4
+B1 = STOCK/ ROUND, 55, HEIGHT, 6
+LOADTL/ T1
+SPINDL/ 1200, CLW
+FEDRAT/ 300
+COOLNT/ FLOOD
+INTOL/ 0.02
+OUTTOL/ 0.02
+CLEARP/ 5
+H1 = MACRO/ A, B = 2
+IF/ A > 1 AND B <> 3
+GOTO/ 60, A, 10
+ELSE
+GODLTA/ 0, 0, B
+ENDIF
+TERMAC
+RAPID
+GOTO/ 60, 0, 20
+DO/ I = 1, 3
+CALL/ H1, A = I
+ENDDO
+P1 = PROFIL/ C1, CIRCUL, DEPTH, 5, STEP, 3
+P2 = PROFIL/ C1, LINEAR, DEPTH, 5, DWELLS, EXACT
+PPRINT done
+FINI
+";
+
+/// Where a text may be cut: between words, numbers and marks.
+fn pieces(text: &str) -> Vec<&str> {
+    let kind = |c: char| if c.is_alphanumeric() || c == '.' { 0 } else { 1 + c as u32 };
+    let mut found = Vec::new();
+    let mut start = 0;
+    let mut last = None;
+    for (i, c) in text.char_indices() {
+        if last.is_some_and(|l| l != kind(c)) {
+            found.push(&text[start..i]);
+            start = i;
+        }
+        last = Some(kind(c));
+    }
+    found.push(&text[start..]);
+    found
+}
+
+/// The whole program with some pieces replaced, removed, doubled or swapped.
+fn mutated(changes: &[(prop::sample::Index, u8, prop::sample::Index)]) -> String {
+    const INSERTS: [&str; 14] =
+        ["0", "-1", "1E9", "1E-9", "360", "mm", "deg", ",", "/", "(", ")", "\n", "(1, 2)", "C1"];
+    let mut parts: Vec<&str> = pieces(WHOLE);
+    for (at, kind, other) in changes {
+        let (i, j) = (at.index(parts.len()), other.index(parts.len()));
+        match kind % 5 {
+            0 => drop(parts.remove(i)),
+            1 => parts.insert(i, parts[j]),
+            2 => parts[i] = parts[j],
+            3 => parts[i] = INSERTS[other.index(INSERTS.len())],
+            _ => parts.swap(i, j),
+        }
+    }
+    parts.concat()
+}
+
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 200, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 100, ..ProptestConfig::default() })]
 
     #[test]
     fn any_text_is_answered(text in "\\PC{0,200}") {
@@ -114,5 +184,14 @@ proptest! {
         )
     ) {
         compile(&parts.concat());
+    }
+
+    #[test]
+    fn damaged_programs_are_answered(
+        changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>(), any::<prop::sample::Index>()), 1..4)
+    ) {
+        let start = Instant::now();
+        compile(&mutated(&changes));
+        prop_assert!(start.elapsed() < PATIENCE, "took {:?}", start.elapsed());
     }
 }
