@@ -125,6 +125,14 @@ pub fn tidy(value: f64) -> f64 {
     format!("{value:.14e}").parse().unwrap_or(value)
 }
 
+/// A number times the factor of a unit. Where the factor is a short decimal, as 25.4 is, the product is that
+/// of the decimals; others, such as 1/60, are left alone.
+fn convert(number: f64, factor: f64) -> f64 {
+    const DECIMALS: f64 = 1e6;
+    let product = number * factor;
+    if (factor * DECIMALS).fract() == 0.0 { tidy(product) } else { product }
+}
+
 impl Dim {
     fn exponents(self) -> [i8; 6] {
         [self.length, self.angle, self.time, self.force, self.revolution, self.tooth]
@@ -326,7 +334,7 @@ impl Quantity {
     /// `number` of `unit`.
     #[must_use]
     pub fn of(number: f64, unit: Unit) -> Quantity {
-        Quantity { value: tidy(number * unit.factor), dim: unit.dim }
+        Quantity { value: convert(number, unit.factor), dim: unit.dim }
     }
     /// Whether it has no dimension.
     #[must_use]
@@ -340,7 +348,7 @@ impl Quantity {
         if self.dim == dim {
             Some(self)
         } else if self.is_bare() {
-            Some(Quantity { value: tidy(self.value * dim.factor(unit)), dim })
+            Some(Quantity { value: convert(self.value, dim.factor(unit)), dim })
         } else {
             None
         }

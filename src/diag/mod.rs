@@ -169,7 +169,8 @@ pub fn did_you_mean<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str
     candidates
         .into_iter()
         .map(|c| (edit_distance(&word, &c.to_uppercase()), c))
-        .filter(|&(d, _)| d <= limit)
+        // Of a word of two letters, one wrong letter is half the word.
+        .filter(|&(d, c)| d <= limit && 2 * d < word.chars().count().max(c.chars().count()))
         .min_by_key(|&(d, c)| (d, c.len()))
         .map(|(_, c)| c)
 }

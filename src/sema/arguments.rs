@@ -451,10 +451,7 @@ impl Analyser<'_> {
                 }
                 forms::unknown_minor(work.statement, &text, token.span, &options)
             }
-            TokenKind::Binding(name, _) => {
-                forms::unknown_minor(work.statement, &name.text, name.span, &options)
-                    .help(format!("values follow their word after a comma: `{}, value`", name.upper()))
-            }
+            TokenKind::Binding(name, _) => binding_problem(work.statement, name, &options, given, form),
             TokenKind::Value(_) => match optional {
                 Some(slot) if !token.fits(slot.kind) && count_values(work) < lead_values(form) => {
                     self.misfit(work.statement, None, slot, token)
@@ -730,14 +727,39 @@ impl Analyser<'_> {
     }
 }
 
+/// `HEIGHT = 12` among the options.
+fn binding_problem(
+    statement: &Statement,
+    name: &Name,
+    options: &[&'static str],
+    given: &mut Vec<(&'static Choices, &'static str, Span)>,
+    form: &'static Form,
+) -> Diagnostic {
+    let upper = name.upper();
+    let near = did_you_mean(&upper, options.iter().copied());
+    let option = form.options.iter().find(|o| o.words.iter().any(|c| Some(c.word) == near));
+    let (Some(near), Some(option)) = (near, option) else {
+        return forms::unknown_minor(statement, &name.text, name.span, options);
+    };
+    given.push((option, near, name.span));
+    let message = format!("the words of {} take their values after a comma, not after `=`", statement.word);
+    Diagnostic::new(&codes::UNKNOWN_MINOR, name.span, message).help(format!("write `{near}, …`"))
+}
+
 /// «BASE of CAM».
 fn place(statement: &Statement, word: Option<&str>, slot: &Slot) -> String {
+    let of = statement.word;
     match word {
-        Some(word) if word.eq_ignore_ascii_case(slot.name) => format!("{word} of {}", statement.word),
-        Some(word) => format!("the {} after {word} of {}", slot.name, statement.word),
-        None => format!("the {} of {}", slot.name, statement.word),
+        Some(word) if word.eq_ignore_ascii_case(slot.name) => format!("{word} of {of}"),
+        Some(word) => format!("the {} after {word} of {of}", slot.name),
+        None if slot.name == slot.help => format!("`{}` of {of}", slot.name),
+        None if slot.name.len() <= SHORT_NAME => format!("`{}` of {of} ({})", slot.name, slot.help),
+        None => format!("the {} of {of}", slot.name),
     }
 }
+
+/// Slots with names up to this length are explained in messages.
+const SHORT_NAME: usize = 2;
 
 fn find_option(form: &'static Form, token: &Token<'_>) -> Option<(&'static Choices, &'static str)> {
     let word = token.word()?;

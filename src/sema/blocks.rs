@@ -74,8 +74,8 @@ enum Role {
     Plain,
 }
 
-fn role(kind: &StatementKind) -> Role {
-    match kind {
+fn role(statement: &Statement, text: &str) -> Role {
+    match &statement.kind {
         StatementKind::If(_) => Role::Open(Block::If),
         StatementKind::ElseIf(_) => Role::Middle("ELSEIF"),
         StatementKind::Else => Role::Middle("ELSE"),
@@ -95,9 +95,55 @@ fn role(kind: &StatementKind) -> Role {
         | StatementKind::Text { .. }
         | StatementKind::ArithmeticIf { .. }
         | StatementKind::Call { .. }
-        | StatementKind::JumpTo(_)
-        | StatementKind::Bad { .. } => Role::Plain,
+        | StatementKind::JumpTo(_) => Role::Plain,
+        StatementKind::Bad { .. } => lost_role(text.get(statement.span.range()).unwrap_or("")),
     }
+}
+
+/// The role that a statement was meant to have that could not be read: by its words.
+fn lost_role(text: &str) -> Role {
+    let text = text.to_ascii_uppercase();
+    let body = text
+        .split_once(')')
+        .filter(|(label, _)| is_word(label.trim()))
+        .map_or(text.as_str(), |(_, rest)| rest);
+    let after_name =
+        body.split_once('=').filter(|(name, _)| is_word(name.trim())).map(|(_, rest)| first_word(rest));
+    if after_name == Some("MACRO") {
+        return Role::Open(Block::Macro);
+    }
+    match first_word(body) {
+        "IF" if !is_arithmetic(body) => Role::Open(Block::If),
+        "ELSEIF" => Role::Middle("ELSEIF"),
+        "ELSE" => Role::Middle("ELSE"),
+        "ENDIF" => Role::Close(Block::If),
+        "DO" => Role::Open(Block::Do),
+        "ENDDO" => Role::Close(Block::Do),
+        "WHILE" => Role::Open(Block::While),
+        "ENDWHILE" => Role::Close(Block::While),
+        "UNTIL" => Role::Open(Block::Until),
+        "ENDUNTIL" => Role::Close(Block::Until),
+        "TERMAC" => Role::Close(Block::Macro),
+        "LOOPST" => Role::Open(Block::Loop),
+        "LOOPND" => Role::Close(Block::Loop),
+        _ => Role::Plain,
+    }
+}
+
+fn is_word(text: &str) -> bool {
+    !text.is_empty() && text.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_')
+}
+
+fn first_word(text: &str) -> &str {
+    let text = text.trim_start();
+    let end = text.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').unwrap_or(text.len());
+    text.get(..end).unwrap_or("")
+}
+
+/// `IF (e) a, b, c`: something stands behind the closing parenthesis.
+fn is_arithmetic(text: &str) -> bool {
+    let opens = text.trim_start().get(2..).is_some_and(|t| t.trim_start().starts_with('('));
+    opens && text.rsplit_once(')').is_some_and(|(_, rest)| !first_word(rest).is_empty())
 }
 
 struct Open {
@@ -109,21 +155,20 @@ struct Open {
 
 struct Matcher<'a> {
     statements: &'a [Statement],
+    text: &'a str,
     links: Vec<Link>,
     open: Vec<Open>,
-    /// A statement could not be read: it may have been the missing beginning.
-    lost: bool,
     problems: Vec<Diagnostic>,
 }
 
-/// Matches the blocks of a file; the second value lists what does not match.
+/// Matches the blocks of a file with this text; the second value lists what does not match.
 #[must_use]
-pub fn match_blocks(program: Program) -> (Code, Vec<Diagnostic>) {
+pub fn match_blocks(program: Program, text: &str) -> (Code, Vec<Diagnostic>) {
     let mut matcher = Matcher {
         statements: &program.statements,
+        text,
         links: vec![Link::None; program.statements.len()],
         open: Vec::new(),
-        lost: program.statements.iter().any(|s| matches!(s.kind, StatementKind::Bad { .. })),
         problems: Vec::new(),
     };
     matcher.run();
@@ -136,7 +181,7 @@ pub fn match_blocks(program: Program) -> (Code, Vec<Diagnostic>) {
 impl Matcher<'_> {
     fn run(&mut self) {
         for (i, statement) in self.statements.iter().enumerate() {
-            match role(&statement.kind) {
+            match role(statement, self.text) {
                 Role::Plain => {}
                 Role::Open(block) => self.open.push(Open { block, branches: vec![i], has_else: false }),
                 Role::Middle(word) => self.middle(i, word),
@@ -205,9 +250,6 @@ impl Matcher<'_> {
 
     fn unclosed(&mut self, open: &Open, found: Option<usize>) {
         let Some(span) = open.branches.first().and_then(|&i| self.span(i)) else { return };
-        if self.lost {
-            return;
-        }
         let (start, end) = open.block.words();
         let mut problem = Diagnostic::new(&codes::BLOCK, span, format!("this {start} has no {end}"))
             .help(format!("write {end} where the block ends"));
@@ -218,9 +260,6 @@ impl Matcher<'_> {
     }
 
     fn stray(&mut self, i: usize, word: &str, start: &str) {
-        if self.lost {
-            return;
-        }
         let Some(span) = self.span(i) else { return };
         let mut problem = Diagnostic::new(&codes::BLOCK, span, format!("{word} without {start}"));
         if let Some(open) = self.open.last()

@@ -299,6 +299,7 @@ impl Analyser<'_> {
         let message = format!("{} is a word of the language and cannot be a name", name.upper());
         let free = self.free_name(&name.upper());
         self.report(Diagnostic::new(&codes::RESERVED, name.span, message).help(format!("`{free}` is free")));
+        self.scope.poison(name);
         false
     }
 

@@ -145,7 +145,8 @@ impl<'a> Analyser<'a> {
 
     /// Matches the blocks of a parsed file.
     fn load(&mut self, tree: ast::Program) -> Rc<blocks::Code> {
-        let (code, problems) = blocks::match_blocks(tree);
+        let text = self.sources.file(tree.file).text.clone();
+        let (code, problems) = blocks::match_blocks(tree, &text);
         for problem in problems {
             self.report(problem);
         }

@@ -93,7 +93,7 @@ impl Analyser<'_> {
         if q.value <= 0.0 {
             let message = format!("a lift must be greater than 0, and this is {}", self.show(*q));
             self.report(
-                Diagnostic::new(&semantics::OUT_OF_RANGE, lift.span, message)
+                Diagnostic::new(&codes::NOT_POSITIVE, lift.span, message)
                     .help("RISE lifts and RETURN lowers; both take the lift without a sign"),
             );
             return None;

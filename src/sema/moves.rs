@@ -78,16 +78,29 @@ impl Analyser<'_> {
     fn move_to(&mut self, p: [f64; 3], at: Span) {
         let rapid = core::mem::take(&mut self.state.rapid);
         if !rapid {
-            self.needs_feed("GOTO", at);
+            self.needs_tool("a move at feed", at);
+            self.needs_spindle("a move at feed", at);
+            self.needs_feed("a move at feed", at);
         }
         self.state.position = Some(p);
         self.step(StepKind::Goto { to: Point3::from(p), rapid });
     }
 
+    /// Reports that a cut has no cutter.
+    pub(super) fn needs_tool(&mut self, what: &str, at: Span) {
+        if matches!(self.state.tool, Setting::Unset) {
+            let message = format!("{what} cuts, and no cutter is loaded");
+            self.report(
+                Diagnostic::new(&planning::NO_TOOL, at, message).help("write `LOADTL/ T1` before it"),
+            );
+            self.state.tool = Setting::Unknown;
+        }
+    }
+
     /// Reports that a cut has no feed.
     pub(super) fn needs_feed(&mut self, what: &str, at: Span) {
         if matches!(self.state.feed, Setting::Unset) {
-            let message = format!("{what} moves at feed, and no feed is given");
+            let message = format!("{what} needs a feed, and none is given");
             self.report(
                 Diagnostic::new(&planning::NO_FEED, at, message)
                     .help("write `FEDRAT/ 300` before it, or RAPID for a rapid move"),

@@ -1,7 +1,7 @@
 //! `PROFIL` and `ROUGH`.
 
 use crate::arena::Handle;
-use crate::diag::codes::{planning, semantics as codes};
+use crate::diag::codes::semantics as codes;
 use crate::diag::{self, Diagnostic};
 use crate::geom::curve::{CurveRef, ends};
 use crate::geom::{Point2, Side, measure};
@@ -45,17 +45,10 @@ impl Analyser<'_> {
 
     /// The loaded cutter, after a check of all that a cut needs.
     fn ready(&mut self, what: &str, m: &Matched) -> Option<Handle<Tool>> {
+        self.needs_tool(what, m.word);
         let tool = match self.state.tool {
             Setting::Set(tool, _) => Some(tool),
-            Setting::Unknown => None,
-            Setting::Unset => {
-                let message = format!("{what} cuts, and no cutter is loaded");
-                self.report(
-                    Diagnostic::new(&planning::NO_TOOL, m.word, message).help("write `LOADTL/ T1` before it"),
-                );
-                self.state.tool = Setting::Unknown;
-                None
-            }
+            Setting::Unknown | Setting::Unset => None,
         };
         self.needs_spindle(what, m.word);
         self.needs_feed(what, m.word);

@@ -168,12 +168,7 @@ impl Analyser<'_> {
             let parameters: Vec<&str> = self
                 .scope
                 .names()
-                .filter(|n| {
-                    matches!(
-                        self.scope.get(n).map(|b| &b.kind),
-                        Some(BindingKind::Parameter(_) | BindingKind::Poison)
-                    )
-                })
+                .filter(|n| matches!(self.scope.get(n).map(|b| &b.kind), Some(BindingKind::Parameter(_))))
                 .collect();
             let problem =
                 Diagnostic::global(&codes::DEFINE, format!("-D {name}: the program has no parameter {name}"));

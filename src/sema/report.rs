@@ -26,14 +26,17 @@ const CALLS_SHOWN: usize = 4;
 #[derive(Debug, Default)]
 pub struct Report {
     items: Vec<(Diagnostic, u64)>,
-    seen: BTreeMap<(&'static str, Option<Span>), usize>,
+    /// By code and place; what has no place, by its text.
+    seen: BTreeMap<(&'static str, Option<Span>, String), usize>,
     errors: usize,
 }
 
 impl Report {
     /// Adds a message that arose in `calls`; a repetition of an earlier one is only counted.
     pub fn push(&mut self, diagnostic: Diagnostic, calls: &[Call]) {
-        let key = (diagnostic.code.id, diagnostic.primary.as_ref().map(|p| p.span));
+        let place = diagnostic.primary.as_ref().map(|p| p.span);
+        let text = if place.is_none() { diagnostic.message.clone() } else { String::new() };
+        let key = (diagnostic.code.id, place, text);
         if let Some(&index) = self.seen.get(&key) {
             if let Some((_, times)) = self.items.get_mut(index) {
                 *times += 1;

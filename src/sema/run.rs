@@ -91,6 +91,7 @@ impl Analyser<'_> {
                     self.scope.poison(name);
                 }
                 self.state.forget();
+                return self.skip_lost_block(code, link, at);
             }
             StatementKind::If(condition) => return self.branch(code, condition, link, at),
             // Reached by running on from the branch before: the IF is done.
@@ -154,6 +155,13 @@ impl Analyser<'_> {
                 _ => Some(true),
             };
         }
+    }
+
+    /// The beginning of a block could not be read: its body is not carried out.
+    fn skip_lost_block(&mut self, code: &Rc<Code>, link: Link, at: usize) -> Option<usize> {
+        let (Link::Start { end } | Link::Branch { end, .. }) = link else { return None };
+        self.poison_block(code, at + 1..end);
+        Some(end + 1)
     }
 
     /// Poisons what a block that cannot be carried out would have declared.

@@ -26,6 +26,23 @@ fn a_bare_number_takes_the_dimension_of_its_place() {
 }
 
 #[test]
+fn conversions_leave_no_noise() {
+    for rpm in [800.0, 1200.0, 333.0, 7.0] {
+        let speed =
+            Quantity::bare(rpm).land(Dim::SPEED, LengthUnit::Inch).expect("a bare number fits anywhere");
+        assert_eq!(tidy(speed.value * 60.0), rpm);
+        assert_eq!(speed.in_unit(LengthUnit::Inch), rpm);
+    }
+    for thousandths in 0..3000 {
+        let inch = f64::from(thousandths) / 1000.0;
+        let mm: f64 = format!("{:.4}", f64::from(thousandths) * 0.0254).parse().expect("a number");
+        let landed =
+            Quantity::bare(inch).land(Dim::LENGTH, LengthUnit::Inch).expect("a bare number fits anywhere");
+        assert_eq!(landed.value, mm);
+    }
+}
+
+#[test]
 fn dimensions_have_names_and_symbols() {
     assert_eq!(Dim::AREA.symbol(LengthUnit::Inch), "in^2");
     assert_eq!(Dim::FEED.symbol(LengthUnit::Inch), "in/min");

@@ -160,13 +160,13 @@ pub const ROWS: &[Statement] = &[
     structure(
         "MACRO",
         "statements to be called by name; parameters may have defaults",
-        "HOLE = MACRO/ AT, DEPTH = 3mm\nTERMAC",
+        "HOLE = MACRO/ AT, D = 3mm\nTERMAC",
     ),
     structure("TERMAC", "end of `MACRO`", "TERMAC"),
     structure(
         "CALL",
         "carries out a macro; arguments by name or by place, a word included",
-        "CALL/ HOLE, AT = P1, DEPTH = 5mm",
+        "CALL/ HOLE, AT = P1, D = 5mm",
     ),
     structure(
         "LOOPST",

@@ -32,3 +32,22 @@ fn only_the_last_items_of_a_lead_are_optional() {
         assert!(form.lead[first_optional..].iter().all(|i| matches!(i, Item::Optional(_))), "{}", form.name);
     }
 }
+
+#[test]
+fn reference_is_up_to_date() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/reference.md");
+    let printed = reference::markdown();
+    if std::env::var_os("UPDATE").is_some() {
+        let mut file = std::fs::File::create(path).expect("docs/reference.md can be written");
+        std::io::Write::write_all(&mut file, printed.as_bytes()).expect("docs/reference.md can be written");
+    }
+    let kept = std::fs::read_to_string(path).unwrap_or_default();
+    assert!(kept == printed, "docs/reference.md is out of date: UPDATE=1 cargo test reference_is_up_to_date");
+}
+
+#[test]
+fn examples_of_the_table_use_words_of_the_table() {
+    for row in statements().filter(|s| !s.example.is_empty()) {
+        assert!(row.example.contains(row.word), "{}", row.word);
+    }
+}
