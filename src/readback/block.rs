@@ -110,7 +110,7 @@ pub(super) fn read(line: &[u8], rules: &Rules, block: &mut Block, fault: &mut dy
                 check_comment(line.get(at + 1..).unwrap_or_default(), rules, fault);
                 line.len()
             }
-            b'/' => slash(block, at, fault),
+            b'/' => slash(block, at, rules, fault),
             b'%' => percent(line, at, rules, block, fault),
             b'a'..=b'z' => {
                 lower_case(c, at, rules, fault);
@@ -155,8 +155,8 @@ fn lower_case(c: u8, at: usize, rules: &Rules, fault: &mut dyn FnMut(String)) {
     }
 }
 
-fn slash(block: &mut Block, at: usize, fault: &mut dyn FnMut(String)) -> usize {
-    if !block.is_empty() {
+fn slash(block: &mut Block, at: usize, rules: &Rules, fault: &mut dyn FnMut(String)) -> usize {
+    if !rules.slash_anywhere && !block.is_empty() {
         fault(format!("'/' in column {} is not at the start of the block", at + 1));
     }
     block.optional = true;
@@ -189,11 +189,18 @@ fn word(
         Ok(read) => read,
         Err((error, end)) => {
             fault(bad_number(letter, error, line, at));
-            return end.max(at + 1);
+            return after_number(line, end.max(at + 1));
         }
     };
     store(letter, value, rules, block, fault);
     end
+}
+
+/// Where a broken number is over.
+fn after_number(line: &[u8], from: usize) -> usize {
+    let rest = line.get(from..).unwrap_or_default();
+    let part = |c: &u8| matches!(c, b'0'..=b'9' | b'.' | b'+' | b'-' | b' ' | b'\t' | b'#' | b'[' | b']' | b'*' | b'<' | b'>' | b'_');
+    from + rest.iter().position(|c| !part(c)).unwrap_or(rest.len())
 }
 
 fn bad_number(letter: u8, error: NumberError, line: &[u8], at: usize) -> String {
@@ -251,6 +258,8 @@ fn comment(line: &[u8], at: usize, rules: &Rules, fault: &mut dyn FnMut(String))
     if let Some(nested) = body.iter().position(|&c| c == b'(').filter(|_| !rules.comment_may_nest) {
         fault(format!("a comment in a comment, column {}", at + nested + 2));
     }
+    let nested = !rules.comment_may_nest && body.contains(&b'(');
+    let close = if nested { rest.iter().rposition(|&c| c == b')') } else { close };
     check_comment(body, rules, fault);
     at + 1 + close.map_or(rest.len(), |c| c + 1)
 }

@@ -15,6 +15,7 @@ pub(super) const RULES: Rules = Rules {
     active_comments: &[],
     percent_allowed: true,
     lower_case: false,
+    slash_anywhere: false,
     line_limit: None,
     limit_counts_all: true,
     whole_numbers: b"NOTDHSLMP",

@@ -15,6 +15,7 @@ pub(super) const RULES: Rules = Rules {
     active_comments: &[],
     percent_allowed: false,
     lower_case: true,
+    slash_anywhere: true,
     line_limit: Some(79),
     limit_counts_all: false,
     whole_numbers: &[],

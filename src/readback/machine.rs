@@ -319,6 +319,9 @@ impl<'a> Machine<'a> {
 
     /// Everything that comes before the motion, in the controls' order of execution.
     fn modal<S: Follow>(&mut self, block: &Block, plan: &Plan, used: &mut u32, out: &mut Out<'_, S>) {
+        if plan.inch.is_some_and(|inch| self.state.inch == Some(!inch)) && block.has(b'F') {
+            out.assumed("F in the block that changes the unit: in which unit it counts depends on the control");
+        }
         self.units(plan.inch);
         self.feed_mode(plan.feed);
         self.feed_word(block, out);

@@ -51,17 +51,10 @@ impl Machine<'_> {
             let arc_words = bit(b'I') | bit(b'J') | bit(b'K') | bit(b'R');
             let modal_arc = matches!(self.state.motion, Mode::Arc { .. }) && block.seen & arc_words != 0;
             if !modal_arc || plan.once.is_some() {
-                return self.no_axis_words(plan, out);
+                return;
             }
         }
         self.moving(block, plan, axes, used, out);
-    }
-
-    /// A motion code without axis words moves nothing; LinuxCNC calls it an error.
-    fn no_axis_words<S: Follow>(&self, plan: &Plan, out: &mut Out<'_, S>) {
-        if self.rules.blends && matches!(plan.motion, Some(Mode::Rapid | Mode::Linear)) {
-            out.fault("all axes missing with motion code");
-        }
     }
 
     fn moving<S: Follow>(

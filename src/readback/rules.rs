@@ -36,6 +36,8 @@ pub(super) struct Rules {
     pub percent_allowed: bool,
     /// Lower-case letters are words.
     pub lower_case: bool,
+    /// `/` is skipped wherever it stands; else it must be the first of the block.
+    pub slash_anywhere: bool,
     /// Longest block, if there is a limit.
     pub line_limit: Option<usize>,
     /// The limit counts comments and blanks too.

@@ -88,6 +88,12 @@ impl Walker<'_, '_> {
             measure.extremes(&from, &to, &mut best);
             self.keep(line, primitive, &best);
             self.advance(line, primitive, &from, &to);
+            if matches!(primitive, Primitive::Rational { .. }) {
+                let back = measure.retreat(&from, &to, self.slack.along);
+                if back > self.slack.along {
+                    self.found.breaks.push(Break::Back(line, back));
+                }
+            }
             from = to;
         }
         self.last = Some((line, from.foot, from.jet.p));

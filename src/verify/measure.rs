@@ -107,6 +107,42 @@ impl<'a, 'b> Measure<'a, 'b> {
         }
     }
 
+    /// How far the primitive runs back along the curve between two sights, mm; runs shorter than `slack` may stay unseen.
+    pub(super) fn retreat(&mut self, a: &Sight, b: &Sight, slack: f64) -> f64 {
+        let mut seen = vec![(a.x, a.foot.sigma), (b.x, b.foot.sigma)];
+        let mut stack = vec![(*a, *b)];
+        while let Some((a, b)) = stack.pop() {
+            let short = self.bounds[0] * (b.x - a.x) <= 0.5 * slack;
+            if short || self.left == 0 || self.forward(&a, &b) {
+                continue;
+            }
+            self.left -= 1;
+            let middle = self.look(0.5 * (a.x + b.x), &a.foot);
+            seen.push((middle.x, middle.foot.sigma));
+            stack.push((middle, b));
+            stack.push((a, middle));
+        }
+        seen.sort_by(|p, q| p.0.total_cmp(&q.0));
+        let (mut furthest, mut back) = (f64::NEG_INFINITY, 0.0f64);
+        for (_, sigma) in seen {
+            furthest = furthest.max(sigma);
+            back = back.max(furthest - sigma);
+        }
+        back
+    }
+
+    /// Whether the primitive certainly advances along the curve between two sights: P'·t > 0.
+    fn forward(&self, a: &Sight, b: &Sight) -> bool {
+        let ((k_lo, k_hi), corner) = self.rail.curvature(&a.foot, &b.foot);
+        let h = b.x - a.x;
+        let [v, acceleration, _] = self.bounds;
+        let k = k_lo.abs().max(k_hi.abs());
+        let bend = k * (a.foot.d.abs().max(b.foot.d.abs()) + 0.5 * v * h);
+        let slack = 0.5 * h * (acceleration + v * k * v / (1.0 - bend.min(MOST_BEND)));
+        let along = |s: &Sight| s.jet.v.dot(&s.foot.t);
+        !corner && bend <= MOST_BEND && along(a).min(along(b)) - slack >= 0.0
+    }
+
     /// Largest speed of the primitive, mm per unit of x.
     pub(super) fn speed(&self) -> f64 {
         self.bounds[0]
