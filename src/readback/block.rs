@@ -199,7 +199,12 @@ fn word(
 /// Where a broken number is over.
 fn after_number(line: &[u8], from: usize) -> usize {
     let rest = line.get(from..).unwrap_or_default();
-    let part = |c: &u8| matches!(c, b'0'..=b'9' | b'.' | b'+' | b'-' | b' ' | b'\t' | b'#' | b'[' | b']' | b'*' | b'<' | b'>' | b'_');
+    let part = |c: &u8| {
+        matches!(
+            c,
+            b'0'..=b'9' | b'.' | b'+' | b'-' | b' ' | b'\t' | b'#' | b'[' | b']' | b'*' | b'<' | b'>' | b'_'
+        )
+    };
     from + rest.iter().position(|c| !part(c)).unwrap_or(rest.len())
 }
 

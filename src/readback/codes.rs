@@ -194,8 +194,7 @@ impl M {
             M::Stop { .. } | M::End => 0,
             M::SpindleOn { .. } | M::SpindleOff => 1,
             M::ToolChange => 2,
-            M::CoolantOn => 3,
-            M::CoolantOff => 4,
+            M::CoolantOn | M::CoolantOff => 3,
             M::NoEffect => 5,
             M::Unfollowed => 6,
         }

@@ -232,9 +232,13 @@ impl<'a> Machine<'a> {
             }
             Frame::PercentAndNumber | Frame::PercentPairOrEnd | Frame::Free => {}
         }
-        let needs_end = self.rules.frame == Frame::PercentAndNumber || percents == 0;
-        if !self.state.ended && (needs_end && self.rules.frame != Frame::Free || self.state.direction != 0.0)
-        {
+        let needs_end = match self.rules.frame {
+            Frame::PercentAndNumber => true,
+            Frame::PercentPairOrEnd => percents == 0,
+            // The control would wait for more, which is fine unless the spindle turns.
+            Frame::Free => self.state.direction != 0.0,
+        };
+        if !self.state.ended && needs_end {
             out.fault("the program has no M2 or M30 at its end");
         }
     }
@@ -320,7 +324,9 @@ impl<'a> Machine<'a> {
     /// Everything that comes before the motion, in the controls' order of execution.
     fn modal<S: Follow>(&mut self, block: &Block, plan: &Plan, used: &mut u32, out: &mut Out<'_, S>) {
         if plan.inch.is_some_and(|inch| self.state.inch == Some(!inch)) && block.has(b'F') {
-            out.assumed("F in the block that changes the unit: in which unit it counts depends on the control");
+            out.assumed(
+                "F in the block that changes the unit: in which unit it counts depends on the control",
+            );
         }
         self.units(plan.inch);
         self.feed_mode(plan.feed);
@@ -509,7 +515,7 @@ impl<'a> Machine<'a> {
 
 fn gather_m<S: Follow>(code: u16, m: M, plan: &mut Plan, out: &mut Out<'_, S>) -> bool {
     let mask = 1u8 << m.group();
-    let several_are_fine = matches!(m, M::CoolantOn | M::NoEffect | M::Unfollowed);
+    let several_are_fine = matches!(m, M::NoEffect | M::Unfollowed);
     if plan.m_groups & mask != 0 && !several_are_fine {
         out.fault(format!("two M codes of one modal group in a block, the second is M{}", tenths(code)));
         return false;

@@ -179,11 +179,18 @@ fn a_turning_table_makes_spirals() {
     assert!(angle.0 == 0.0 && close(angle.1, PI / 2.0));
     // Half a minute for a quarter turn at 10 to 12 mm.
     let length = moves[3].length();
-    assert!((length - (11.0f64 * PI / 2.0).hypot(2.0)).abs() < 0.01 && close(moves[3].feed.unwrap(), 2.0 * length));
+    assert!(
+        (length - (11.0f64 * PI / 2.0).hypot(2.0)).abs() < 0.01
+            && close(moves[3].feed.unwrap(), 2.0 * length)
+    );
     // With the table turned by 180 deg, machine +X is the part's -X.
     let (from, to) = line(&moves[5]);
     assert!((from - Point2::new(-12.0, 0.0)).norm() < 1e-12 && (to - Point2::new(-14.0, 0.0)).norm() < 1e-12);
-    faults("linuxcnc", &linuxcnc("G0 C0\nG1 Y1\nG1 X1 C5"), &[(10, "the tool must be on the table's X axis")]);
+    faults(
+        "linuxcnc",
+        &linuxcnc("G0 C0\nG1 Y1\nG1 X1 C5"),
+        &[(10, "the tool must be on the table's X axis")],
+    );
     let reversed = MachineSetup { rotary: Some(Rotary { letter: 'A', reversed: true }), tools: None };
     let text = linuxcnc("G0 A0\nG1 A10");
     let moves = moves_of(run(text.as_bytes(), "linuxcnc", &reversed).expect("known"));
@@ -213,7 +220,8 @@ fn feeds_with_a_table_follow_each_control() {
 
 #[test]
 fn a_nurbs_of_linuxcnc_has_uniform_clamped_knots() {
-    let moves = clean("linuxcnc", &linuxcnc("G1 X0 Y0\nG5.2 P1 L3\nX0 Y1 P1\nX2 Y2 P1\nX2 Y0 P2\nX0 Y0 P1\nG5.3"));
+    let moves =
+        clean("linuxcnc", &linuxcnc("G1 X0 Y0\nG5.2 P1 L3\nX0 Y1 P1\nX2 Y2 P1\nX2 Y0 P2\nX0 Y0 P1\nG5.3"));
     let TracePath::Nurbs { order, points, weights, knots } = &moves[3].path else { panic!("{:?}", moves[3]) };
     assert_eq!((*order, points.len()), (3, 5));
     assert_eq!(weights, &[1.0, 1.0, 1.0, 2.0, 1.0]);
@@ -222,7 +230,9 @@ fn a_nurbs_of_linuxcnc_has_uniform_clamped_knots() {
 }
 
 fn fanuc(body: &str) -> String {
-    format!("%\nO0001\nG17 G21 G40 G49 G80 G90 G94\nT1 M6\nG43 H1\nG0 X10. Y0. Z5.\nS1000 M3\nF100.\n{body}\nM30\n%\n")
+    format!(
+        "%\nO0001\nG17 G21 G40 G49 G80 G90 G94\nT1 M6\nG43 H1\nG0 X10. Y0. Z5.\nS1000 M3\nF100.\n{body}\nM30\n%\n"
+    )
 }
 
 #[test]
@@ -231,8 +241,11 @@ fn fanuc_counts_least_increments_without_a_point() {
     assert_eq!((line(&moves[1]).1, moves[1].z.1), (Point2::new(12.5, -0.003), -1.0));
     assert_eq!(moves[1].feed, Some(200.0));
     let trace = trace("fanuc", &fanuc("G4 P1500\nG4 X2.5"));
-    let dwells: Vec<f64> =
-        trace.events.iter().filter_map(|e| if let EventKind::Dwell(s) = e.kind { Some(s) } else { None }).collect();
+    let dwells: Vec<f64> = trace
+        .events
+        .iter()
+        .filter_map(|e| if let EventKind::Dwell(s) = e.kind { Some(s) } else { None })
+        .collect();
     assert!(close(dwells[0], 1.5) && close(dwells[1], 2.5));
     let text = fanuc("G1 X5000 F3.").replace("G21", "G20");
     assert!(close(line(&clean("fanuc", &text)[1]).1.x, 0.5 * 25.4));
@@ -260,7 +273,11 @@ fn fanuc_refuses_what_it_refuses() {
         let fits = got.iter().any(|f| f.line == line && f.message.contains(words));
         assert!(fits, "{body}: {got:#?}");
     }
-    faults("fanuc", "O1\nG21 G90\nG0 X1.\nM30\n%\n", &[(1, "does not start with '%'"), (5, "'%' inside"), (5, "does not end")]);
+    faults(
+        "fanuc",
+        "O1\nG21 G90\nG0 X1.\nM30\n%\n",
+        &[(1, "does not start with '%'"), (5, "'%' inside"), (5, "does not end")],
+    );
     faults("fanuc", "%\nG21 G90\nM30\n%\n", &[(2, "no O number")]);
     faults("fanuc", "%\nO5\nG21 G90\n%\n", &[(4, "no M2 or M30")]);
     faults("fanuc", "%\nO5\nG21 G90\nM30\n", &[(4, "does not end with '%'")]);
@@ -275,7 +292,8 @@ fn fanuc_lets_r_win_and_takes_a_full_circle_without_end() {
 
 #[test]
 fn a_nurbs_of_fanuc_obeys_its_knot_rules() {
-    let good = "G6.2 P3 K0. X10. Y0. R1.\nK0. X12. Y0. R1.\nK0. X12. Y2. R2.\nK1. X10. Y4. R1.\nK2.\nK2.\nK2.";
+    let good =
+        "G6.2 P3 K0. X10. Y0. R1.\nK0. X12. Y0. R1.\nK0. X12. Y2. R2.\nK1. X10. Y4. R1.\nK2.\nK2.\nK2.";
     let moves = clean("fanuc", &fanuc(good));
     let TracePath::Nurbs { order, points, weights, knots } = &moves[1].path else { panic!() };
     assert_eq!((*order, points.len(), knots.len()), (3, 4, 7));
@@ -334,7 +352,8 @@ fn grbl_refuses_what_it_refuses() {
         assert!(!got.is_empty() && got[0].message.contains(words), "{body}: {got:#?}");
     }
     // Comments and blanks don't count: 79 characters are taken, 80 are not.
-    let block = |digits: usize| format!("G1 X1.{} (a comment of some length to be left out) Y2", "0".repeat(digits));
+    let block =
+        |digits: usize| format!("G1 X1.{} (a comment of some length to be left out) Y2", "0".repeat(digits));
     faults("grbl", &grbl(&block(71)), &[(5, "too many digits")]);
     let words = |n: usize| {
         let zeros = "0".repeat(16);
@@ -346,7 +365,8 @@ fn grbl_refuses_what_it_refuses() {
 
 #[test]
 fn grbl_accepts_what_it_accepts() {
-    let moves = clean("grbl", &grbl("g1x12y3 (open comment\nG2 X12 I-1 / ; semi\nG4P0.5\nG93 G1 X1 F2\nG94 F100 X2"));
+    let moves =
+        clean("grbl", &grbl("g1x12y3 (open comment\nG2 X12 I-1 / ; semi\nG4P0.5\nG93 G1 X1 F2\nG94 F100 X2"));
     assert_eq!(moves.len(), 5);
     assert!(close(arc(&moves[2]).1, -TAU));
     assert!(close(moves[3].feed.unwrap(), 2.0 * moves[3].length()));

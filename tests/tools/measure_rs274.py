@@ -347,7 +347,11 @@ def execute(program):
         table = Path(folder, "tool.tbl")
         table.write_text("".join(f"T{n} P{n} Z0 D0.3\n" for n in range(1, 100)))
         command = ["rs274", "-g", "-t", str(table), "-v", str(Path(folder, "rs274.var")), str(program)]
-        done = subprocess.run(command, capture_output=True, text=True, stdin=subprocess.DEVNULL)
+        # Two rs274 at a time get in each other's way now and then: a death by signal is not an answer.
+        for _ in range(20):
+            done = subprocess.run(command, capture_output=True, text=True, stdin=subprocess.DEVNULL)
+            if done.returncode >= 0:
+                break
     if done.returncode != 0:
         sys.stderr.write(done.stderr)
         print(f"rs274 refuses {program}", file=sys.stderr)
