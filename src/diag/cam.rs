@@ -168,7 +168,7 @@ pub fn cam(issue: &CamIssue, statement: Span, unit: LengthUnit) -> Diagnostic {
         CamIssue::NotPositive { what, value } => Diagnostic::new(
             &codes::NOT_POSITIVE,
             statement,
-            format!("the {what} must be over 0, it is {}", number(*value)),
+            format!("the {what} must be over 0 and at most 1e9, it is {}", number(*value)),
         ),
         CamIssue::GrooveNeedsRoller => {
             Diagnostic::new(&codes::GROOVE_NEEDS_ROLLER, statement, "a flat face cannot run in a groove")

@@ -70,6 +70,9 @@ pub enum Rotation {
     CounterClockwise,
 }
 
+/// Lengths (mm) and speeds (rpm) beyond this are no cam's.
+pub const LARGEST_VALUE: f64 = 1e9;
+
 /// What makes a cam.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CamDefinition {
@@ -113,7 +116,7 @@ impl CamDefinition {
 /// What is wrong with, or to be known of, a cam. Lengths in mm.
 #[derive(Debug, Clone, PartialEq)]
 pub enum CamIssue {
-    /// A value must be positive (and finite).
+    /// A value must be over 0 and at most [`LARGEST_VALUE`].
     NotPositive {
         /// Which.
         what: &'static str,

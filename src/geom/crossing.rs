@@ -32,18 +32,21 @@ pub fn flatten(curve: &dyn PlanarCurve, tolerance: f64) -> Vec<(f64, Point2)> {
 }
 
 /// The end of the chord that starts at u: from the curvature there, shortened until the chord's end and middle
-/// agree with it.
+/// agree with it. A span has a few thousand chords at most.
 fn next_parameter(curve: &dyn PlanarCurve, span: usize, u: f64, b: f64, tolerance: f64) -> f64 {
     const LARGEST_TURN: f64 = 0.25;
-    const HALVINGS: u32 = 30;
+    const FEWEST_A_SPAN: f64 = 8.0;
+    const MOST_A_SPAN: f64 = 4096.0;
     let chord_of = |k: f64| {
         let k = k.abs().max(f64::MIN_POSITIVE);
         (8.0 * tolerance / k).sqrt().min(LARGEST_TURN / k)
     };
     let here = curve.at_in(span, u);
-    let fewest = (b - curve.breaks()[span]) / 8.0;
-    let mut step = (chord_of(here.k) / here.speed.abs().max(f64::MIN_POSITIVE)).min(fewest).min(b - u);
-    for _ in 0..HALVINGS {
+    let whole = b - curve.breaks()[span];
+    let smallest = whole / MOST_A_SPAN;
+    let wanted = chord_of(here.k) / here.speed.abs().max(f64::MIN_POSITIVE);
+    let mut step = wanted.min(whole / FEWEST_A_SPAN).max(smallest).min(b - u);
+    while step > smallest {
         let fits = [0.5, 1.0].iter().all(|x| {
             let f = curve.at_in(span, u + step * x);
             f.speed.abs() * step <= 1.5 * chord_of(f.k) && here.t.dot(&f.t) > 0.9

@@ -31,6 +31,8 @@ pub struct Lift {
 
 /// Angles that add up to a turn within this many radians do so: rounding of decimal input.
 pub const ANGLE_CLOSURE: f64 = 1e-9;
+/// Lifts beyond this, mm, are no lifts; tables as well.
+pub const LARGEST_LIFT: f64 = 1e9;
 /// A jump of lift up to this share of the largest lift is rounding.
 pub const LIFT_JUMP: f64 = 1e-9;
 /// A jump of velocity or acceleration up to this share of the motion's typical value is rounding: the corner
@@ -417,11 +419,11 @@ fn segment_issues(segments: &[Segment]) -> Vec<MotionIssue> {
 
 fn segment_issue(index: usize, segment: &Segment) -> Option<MotionIssue> {
     let angle = segment.angle.rad();
-    if !(angle > 0.0 && angle.is_finite()) {
+    if !(angle > ANGLE_CLOSURE && angle.is_finite()) {
         return Some(MotionIssue::SegmentAngle { segment: index, angle: segment.angle });
     }
     let lift_needed = segment.kind != SegmentKind::Dwell;
-    let lift_good = segment.lift > 0.0 && segment.lift.is_finite();
+    let lift_good = segment.lift > 0.0 && segment.lift <= LARGEST_LIFT;
     (lift_needed && !lift_good).then_some(MotionIssue::SegmentLift { segment: index, lift: segment.lift })
 }
 

@@ -193,9 +193,8 @@ fn de_boor(control: &[[f64; 3]], knots: &[f64], degree: usize, span: usize, u: f
             let i = span - degree + j;
             let gap = knots[i + 1 + degree - r] - knots[i];
             let x = if gap > 0.0 { (u - knots[i]) / gap } else { 0.0 };
-            for axis in 0..3 {
-                d[j][axis] = (1.0 - x) * d[j - 1][axis] + x * d[j][axis];
-            }
+            let (before, here) = (d[j - 1], d[j]);
+            d[j] = [0, 1, 2].map(|axis| (1.0 - x) * before[axis] + x * here[axis]);
         }
     }
     Point2::new(d[degree][0] / d[degree][2], d[degree][1] / d[degree][2])

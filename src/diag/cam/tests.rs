@@ -165,7 +165,7 @@ fn values_must_be_positive() {
     let messages = cam_messages(-1.0, ROLLER, rise_and_return(5.0, 90.0, "P345"), LengthUnit::Millimetre);
     assert_eq!(
         (messages[0].code.id, messages[0].message.as_str()),
-        ("E0406", "the base radius must be over 0, it is -1")
+        ("E0406", "the base radius must be over 0 and at most 1e9, it is -1")
     );
 }
 

@@ -1,7 +1,7 @@
 //! Whether a follower can run on a cam, and the smallest base circle on which it can.
 
 use super::figures::{CamFigures, Extreme, Samples};
-use super::{Cam, CamDefinition, CamIssue, Flank};
+use super::{Cam, CamDefinition, CamIssue, Flank, LARGEST_VALUE};
 use crate::geom::crossing;
 use crate::geom::curve::PlanarCurve;
 use crate::geom::follower::{Follower, Linkage};
@@ -28,7 +28,7 @@ pub(super) fn value_issues(definition: &CamDefinition) -> Vec<CamIssue> {
     }
     values.extend(definition.speed.map(|s| ("speed", s)));
     let bad = |(what, value): (&'static str, f64)| {
-        let good = value > 0.0 && value.is_finite();
+        let good = value > 0.0 && value <= LARGEST_VALUE;
         (!good).then_some(CamIssue::NotPositive { what, value })
     };
     let mut issues: Vec<CamIssue> = values.into_iter().filter_map(bad).collect();

@@ -372,22 +372,43 @@ fn cams_go_between_threads() {
     check::<CamDefinition>();
 }
 
-/// A definition from random numbers; lifts of swinging followers are small angles.
-fn definition(
+/// Random numbers that make a cam.
+#[derive(Debug, Clone, Copy)]
+struct Dice {
     kind: u8,
     base: f64,
     radius: f64,
     lift: f64,
     rise: f64,
     offset: f64,
-    law_index: usize,
+    law: usize,
     ccw: bool,
-) -> CamDefinition {
+}
+
+fn dice() -> impl Strategy<Value = Dice> {
+    let lengths = (10.0f64..60.0, 3.0f64..16.0, 2.0f64..25.0, 60.0f64..200.0, -8.0f64..8.0);
+    (0u8..8, lengths, 0usize..8, any::<bool>()).prop_map(
+        |(kind, (base, radius, lift, rise, offset), law, ccw)| Dice {
+            kind,
+            base,
+            radius,
+            lift,
+            rise,
+            offset,
+            law,
+            ccw,
+        },
+    )
+}
+
+/// A definition from random numbers; lifts of swinging followers are small angles.
+fn definition(dice: Dice) -> CamDefinition {
+    let Dice { kind, base, radius, lift, rise, offset, law: law_index, ccw } = dice;
     let names = ["MODSIN", "CYCLO", "P345", "P4567", "MODTRAP", "TRAPEC", "ONESIN", "SHM"];
-    let side = if kind % 2 == 0 { ArmSide::Left } else { ArmSide::Right };
+    let side = if kind.is_multiple_of(2) { ArmSide::Left } else { ArmSide::Right };
     let pivot = 2.6 * (base + radius);
     let swings = kind >= 4;
-    let lift = if swings { lift / pivot } else { lift };
+    let lift = if swings { (lift / pivot).min(3.0) } else { lift };
     let follower = match kind {
         0 | 1 => roller(radius, offset),
         2 | 3 => Follower::TranslatingFlat { offset },
@@ -462,12 +483,9 @@ proptest! {
     /// The envelope property: at every cam angle the follower touches the profile and cuts it nowhere. A cam is
     /// refused exactly when it would.
     #[test]
-    fn the_follower_touches_the_profile_and_never_cuts_it(
-        kind in 0u8..8, base in 10.0f64..60.0, radius in 3.0f64..16.0, lift in 2.0f64..25.0,
-        rise in 60.0f64..200.0, offset in -8.0f64..8.0, law_index in 0usize..8, ccw in any::<bool>(),
-    ) {
+    fn the_follower_touches_the_profile_and_never_cuts_it(dice in dice()) {
         const SEEN: f64 = 1e-3;
-        let definition = definition(kind, base, radius, lift, rise, offset, law_index, ccw);
+        let definition = definition(dice);
         match Cam::new(definition.clone()) {
             Ok(cam) => {
                 let curves: Vec<CurveRef> = definition.flanks().iter().map(|f| cam.flank(*f)).collect();
@@ -477,7 +495,7 @@ proptest! {
             }
             Err(issues) if issues.iter().any(|i| matches!(i, CamIssue::Undercut { .. })) => {
                 let linkage = Linkage::new(&definition.follower, definition.base).expect("reaches");
-                let geometry = Arc::new(Geometry::new(linkage, definition.motion.clone(), ccw));
+                let geometry = Arc::new(Geometry::new(linkage, definition.motion.clone(), dice.ccw));
                 let curves: Vec<CurveRef> = definition.flanks().iter()
                     .map(|f| Arc::new(CamCurve::new(geometry.clone(), f.shift(linkage.roller))) as CurveRef)
                     .collect();
@@ -489,6 +507,19 @@ proptest! {
                 prop_assert!(!deep || least < 0.0, "refused, but clear by {least}: {issues:?}");
             }
             Err(issues) => prop_assert!(!issues.is_empty()),
+        }
+    }
+
+    /// Whatever the numbers, there is an answer.
+    #[test]
+    fn extreme_values_are_answered(
+        kind in 0u8..8, exponents in proptest::array::uniform6(-12i32..13), rise in 1e-6f64..304.0, ccw in any::<bool>(),
+    ) {
+        let [base, radius, lift, offset, law, _] = exponents.map(|e| (0..e.abs()).fold(1.0, |v, _| if e < 0 { v / 10.0 } else { v * 10.0 }));
+        let dice = Dice { kind, base, radius, lift: lift.min(1e9), rise, offset, law: law.min(7.0) as usize, ccw };
+        if let Ok(cam) = Cam::new(definition(dice)) {
+            prop_assert!(cam.figures().inner.length > 0.0);
+            let _ = (cam.max_cutter(Flank::Inner), cam.smallest_base());
         }
     }
 }

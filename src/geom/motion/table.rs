@@ -1,7 +1,7 @@
 //! Motions interpolated from discrete data.
 
 use super::form::{Form, Piece};
-use super::{ANGLE_CLOSURE, LIFT_JUMP, MotionIssue, Span};
+use super::{ANGLE_CLOSURE, LARGEST_LIFT, LIFT_JUMP, MotionIssue, Span};
 use crate::geom::tridiagonal::{End, slopes};
 use crate::math::TAU;
 use crate::units::Angle;
@@ -105,12 +105,12 @@ impl Table {
 
 fn row_issues(rows: &[(Angle, f64)]) -> Vec<MotionIssue> {
     let bad = |(row, r): (usize, &(Angle, f64))| {
-        let good = r.0.rad().is_finite() && r.1.is_finite();
+        let good = r.0.rad().is_finite() && r.1.abs() <= LARGEST_LIFT;
         (!good).then_some(MotionIssue::TableValue { row })
     };
     let mut issues: Vec<MotionIssue> = rows.iter().enumerate().filter_map(bad).collect();
     let not_ascending = |(i, w): (usize, &[(Angle, f64)])| {
-        let ascends = w[1].0 > w[0].0;
+        let ascends = w[1].0.rad() - w[0].0.rad() > ANGLE_CLOSURE;
         (!ascends).then_some(MotionIssue::TableNotAscending { row: i + 1, angle: w[1].0, before: w[0].0 })
     };
     issues.extend(rows.windows(2).enumerate().filter_map(not_ascending));
