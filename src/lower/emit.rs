@@ -290,9 +290,25 @@ impl<'a> Emitter<'a> {
         if rises {
             self.rapid_axes(to, axes::Z);
         }
-        self.rapid_axes(to, axes::X | axes::Y | axes::ROTARY);
+        self.rapid_plane(to);
         if !rises {
             self.rapid_axes(to, axes::Z);
+        }
+    }
+
+    /// X, Y and the table. The table turns only while the cutter is on its X axis: elsewhere a move of Y and a
+    /// turn have no common path that everybody draws alike.
+    fn rapid_plane(&mut self, to: Position) {
+        let turns = self.at[3] != Some(to.r);
+        let on_axis = self.at[1] == Some(0);
+        if !turns || (on_axis && to.y == 0) {
+            self.rapid_axes(to, axes::X | axes::Y | axes::ROTARY);
+        } else if self.at[1].is_some_and(|y| y != 0) {
+            self.rapid_axes(to, axes::X | axes::Y);
+            self.rapid_axes(to, axes::ROTARY);
+        } else {
+            self.rapid_axes(to, axes::ROTARY);
+            self.rapid_axes(to, axes::X | axes::Y);
         }
     }
 

@@ -72,6 +72,18 @@ fn a_reversed_table_turns_the_other_way() {
 }
 
 #[test]
+fn cartesian_and_polar_operations_follow_each_other() {
+    let polar = || plate(Interpolation::RTheta, Lead::Arc(8.0));
+    let plain = || plate(Interpolation::Circular, Lead::Arc(8.0));
+    let mut draft = Draft::new().contour(plain()).contour(polar()).contour(polar()).contour(plain());
+    draft = draft.rapid(0.0, 60.0, 5.0);
+    for post in ["linuxcnc", "fanuc"] {
+        let made = made(&draft.cl, post, Some('C'));
+        assert_eq!(made.target.pieces.len(), 4);
+    }
+}
+
+#[test]
 fn r_theta_without_a_rotary_axis_becomes_arcs_with_a_note() {
     let made = made(&draft(Interpolation::RTheta).cl, "grbl", None);
     assert_eq!(made.notes, ["N0602"]);
