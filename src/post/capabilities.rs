@@ -1,5 +1,7 @@
 //! What a dialect tells lowering.
 
+use std::collections::BTreeMap;
+
 use super::dialect::{Dialect, FullCircleWords};
 use crate::diag::{Diagnostic, codes, did_you_mean};
 use crate::ir::{Machine, Rotary};
@@ -55,6 +57,7 @@ impl Dialect {
             ranges: self.ranges(unit),
             mist: !spec.coolant.mist.is_empty(),
             flood: !spec.coolant.flood.is_empty(),
+            options: self.options(machine),
             optional_stop: !spec.stops.optional.is_empty(),
             spindle: spec.limits.spindle.map(|[low, high]| (low, high)),
         })
@@ -122,6 +125,17 @@ impl Dialect {
         }
         let possible = !self.spec.path_control.tolerance.is_empty();
         Ok((possible && share > 0.0).then_some(PathTolerance { share }))
+    }
+
+    /// The post's options, with the machine's values.
+    fn options(&self, machine: Option<&Machine>) -> BTreeMap<String, String> {
+        let mut options = self.spec.options.clone();
+        for (key, value) in machine.iter().flat_map(|m| &m.options) {
+            if let Some((_, slot)) = options.iter_mut().find(|(k, _)| k.eq_ignore_ascii_case(key)) {
+                *slot = value.clone().unwrap_or_else(|| "yes".to_owned());
+            }
+        }
+        options
     }
 
     fn share(&self, text: &str) -> Result<f64, Diagnostic> {

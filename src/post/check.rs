@@ -6,6 +6,7 @@ use super::template::Renderer;
 use super::tree;
 use crate::diag::{Code, Diagnostic, codes, did_you_mean};
 use crate::source::Span;
+use crate::units::LengthUnit;
 
 /// Every error of a resolved dialect; `templates`: compile all of them, used or not.
 #[must_use]
@@ -13,6 +14,7 @@ pub fn check(dialect: &Dialect, templates: bool) -> Vec<Diagnostic> {
     let mut errors = Vec::new();
     check_patterns(dialect, &mut errors);
     check_named_words(dialect, &mut errors);
+    check_decimals(dialect, &mut errors);
     check_safe_start(dialect, &mut errors);
     check_tool_change(dialect, &mut errors);
     check_rotary(dialect, &mut errors);
@@ -101,6 +103,30 @@ fn check_named_words(dialect: &Dialect, errors: &mut Vec<Diagnostic>) {
             errors.push(at(dialect, &format!("words.{name}.prefix"), &codes::post::WRONG_VALUE, message));
         }
     }
+}
+
+/// Linear axes share one grid, and centre words are at least as fine.
+fn check_decimals(dialect: &Dialect, errors: &mut Vec<Diagnostic>) {
+    let spec = &dialect.spec;
+    for unit in [LengthUnit::Millimetre, LengthUnit::Inch] {
+        let decimals = |word: &str| spec.decimals(word, unit);
+        let linear = decimals("x");
+        let bad = |word: &&&str| match **word {
+            "y" | "z" => decimals(word) != linear,
+            "j" => decimals("j") != decimals("i"),
+            "cy" => decimals("cy") != decimals("cx"),
+            _ => decimals(word) < linear,
+        };
+        for word in ["y", "z", "i", "j", "cx", "cy", "radius"].iter().filter(bad) {
+            let message = format!(
+                "`{word}` has {} decimals in {} programs, `x` has {linear}: linear axes have the same decimals, words of arcs the same as each other and no fewer",
+                decimals(word),
+                unit.symbol()
+            );
+            errors.push(at(dialect, &format!("words.{word}.decimals"), &codes::post::BAD_PATTERN, message));
+        }
+    }
+    errors.dedup_by(|a, b| a.primary.is_some() && a.primary == b.primary);
 }
 
 fn check_safe_start(dialect: &Dialect, errors: &mut Vec<Diagnostic>) {

@@ -489,7 +489,7 @@ impl<'a> Events<'a> {
             tools: self.program.tools.iter().map(|tool| self.tool_context(tool)).collect(),
             rotary: self.program.capabilities.rotary.map(|r| r.letter.to_string()),
             safe_start: self.safe_start(),
-            options: &dialect.spec.options,
+            options: &self.program.capabilities.options,
             spindle_on: self.spindle_on,
             coolant_on: self.coolant_on,
             tool: None,

@@ -123,6 +123,8 @@ pub struct Capabilities {
     pub flood: bool,
     /// Optional stop.
     pub optional_stop: bool,
+    /// What templates read as `options`: the post's own values and those that `MACHIN` changes.
+    pub options: std::collections::BTreeMap<String, String>,
     /// Slowest and fastest spindle speed, rev/min, where declared.
     pub spindle: Option<(f64, f64)>,
 }

@@ -2,13 +2,6 @@
 
 use crate::diag::Code;
 
-/// the controller cannot do this.
-pub const NOT_ON_THIS_CONTROLLER: Code = Code {
-    id: "E0601",
-    title: "the controller cannot do this",
-    page: include_str!("../../../docs/diagnostics/E0601.md"),
-};
-
 /// the path cannot be expressed within the tolerance.
 pub const CANNOT_FIT: Code = Code {
     id: "E0602",
@@ -107,13 +100,8 @@ pub const OPTIONAL_STOP: Code = Code {
     page: include_str!("../../../docs/diagnostics/N0608.md"),
 };
 
-/// an arc was split.
-pub const SPLIT_ARC: Code =
-    Code { id: "N0609", title: "an arc was split", page: include_str!("../../../docs/diagnostics/N0609.md") };
-
 /// All codes of this area.
 pub const ALL: &[&Code] = &[
-    &NOT_ON_THIS_CONTROLLER,
     &CANNOT_FIT,
     &OUT_OF_TRAVEL,
     &TOO_LARGE,
@@ -128,5 +116,4 @@ pub const ALL: &[&Code] = &[
     &PATH_TOLERANCE,
     &COOLANT,
     &OPTIONAL_STOP,
-    &SPLIT_ARC,
 ];

@@ -210,6 +210,17 @@ fn feeds_that_round_to_nothing_are_refused() {
 }
 
 #[test]
+fn a_feed_per_revolution_needs_a_spindle() {
+    let draft = Draft::new()
+        .add(RecordKind::Spindle(crate::ir::Spindle::Off))
+        .add(RecordKind::Feed(Feed::PerRevolution(0.1)))
+        .rapid(0.0, 0.0, 5.0)
+        .linear(0.0, 0.0, 1.0);
+    let (_, messages) = lowered(&draft.cl, &dialect("fanuc", None), None);
+    assert_eq!(messages.iter().map(|m| m.code.id).collect::<Vec<_>>(), ["E0606"]);
+}
+
+#[test]
 fn a_band_narrower_than_the_grid_is_refused_with_its_numbers() {
     let mut contour = plate(Interpolation::Linear, Lead::Plunge);
     contour.band = Band { into: 0.0, out: 0.0001 };

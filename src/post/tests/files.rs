@@ -29,7 +29,10 @@ fn complaints(text: &str) -> Vec<String> {
 
 #[test]
 fn a_user_file_inherits_and_changes_only_what_it_says() {
-    let dialect = user("inherits = \"linuxcnc\"\n[words.x]\ndecimals = 5\n").unwrap();
+    let finer: String = ["x", "y", "z", "i", "j", "cx", "cy", "radius"]
+        .map(|w| format!("[words.{w}]\ndecimals = 5\n"))
+        .concat();
+    let dialect = user(&format!("inherits = \"linuxcnc\"\n{finer}")).unwrap();
     assert_eq!(dialect.name(), "my");
     assert_eq!(dialect.control(), "linuxcnc");
     let capabilities = dialect.capabilities(LengthUnit::Inch, None).unwrap();
@@ -105,6 +108,26 @@ fn errors_of_a_merged_file_point_into_the_built_in_file_they_come_from() {
     let errors = load("my.post.toml", &files(&[("my.post.toml", text)]), &mut sources).unwrap_err();
     let place = errors[0].primary.as_ref().unwrap().span;
     assert_eq!(sources.file(place.file).name, "builtin linuxcnc.post.toml");
+}
+
+#[test]
+fn options_of_the_machine_reach_the_templates_and_others_are_refused() {
+    let dialect = user(
+        "inherits = \"grbl\"\n[options]\nVISE = \"left\"\n[templates]\nheader = \"({{ options.VISE }})\"\n",
+    )
+    .unwrap();
+    let mut sheet = super::build::Sheet::new(dialect.clone(), LengthUnit::Millimetre, None);
+    let machine = |key: &str| crate::ir::Machine {
+        post: "my".into(),
+        rotary: None,
+        options: vec![(key.into(), Some("right".into()))],
+        origin: sheet.program.tools[0].origin,
+    };
+    let (known, slip) = (machine("vise"), machine("VICE"));
+    sheet.program.capabilities = dialect.capabilities(LengthUnit::Millimetre, Some(&known)).unwrap();
+    assert_eq!(sheet.text(), "(right)\n");
+    let error = dialect.capabilities(LengthUnit::Millimetre, Some(&slip)).unwrap_err();
+    assert_eq!((error.code.id, error.help[0].as_str()), ("E0713", "did you mean `VISE`?"));
 }
 
 #[test]
