@@ -118,12 +118,14 @@ fn check_decimals(dialect: &Dialect, errors: &mut Vec<Diagnostic>) {
             _ => decimals(word) < linear,
         };
         for word in ["y", "z", "i", "j", "cx", "cy", "radius"].iter().filter(bad) {
+            let path = format!("words.{word}.decimals");
+            let path = if tree::find(&dialect.tree, &path).is_some() { &path } else { "words.x.decimals" };
             let message = format!(
                 "`{word}` has {} decimals in {} programs, `x` has {linear}: linear axes have the same decimals, words of arcs the same as each other and no fewer",
                 decimals(word),
                 unit.symbol()
             );
-            errors.push(at(dialect, &format!("words.{word}.decimals"), &codes::post::BAD_PATTERN, message));
+            errors.push(at(dialect, path, &codes::post::BAD_PATTERN, message));
         }
     }
     errors.dedup_by(|a, b| a.primary.is_some() && a.primary == b.primary);
@@ -142,7 +144,10 @@ fn check_safe_start(dialect: &Dialect, errors: &mut Vec<Diagnostic>) {
     if dialect.spec.safe_start.is_empty() {
         return;
     }
-    for name in groups.keys().filter(|n| !listed().any(|l| l == *n)) {
+    // A group that starts with nothing is one that this control, unlike its parent, does not have.
+    let exists =
+        |name: &&String| groups.get(*name).is_some_and(|g| !g.start.of(LengthUnit::Millimetre).is_empty());
+    for name in groups.keys().filter(exists).filter(|n| !listed().any(|l| l == *n)) {
         let message = format!(
             "the group `{name}` is not in `safe-start`: a program would rely on what the machine happens to have on"
         );

@@ -181,6 +181,7 @@ pub struct Numbering {
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 #[allow(missing_docs)]
 pub struct Numbers {
+    pub linear_decimals: ByUnit<u8>,
     pub point: Point,
     pub trailing_zeros: bool,
     pub bare_fraction: bool,
@@ -398,11 +399,16 @@ pub struct Templates {
     pub operation: String,
 }
 
+/// Words on the grid of the linear axes.
+const LINEAR_WORDS: [&str; 8] = ["x", "y", "z", "i", "j", "cx", "cy", "radius"];
+
 impl Spec {
     /// Decimals of a word in programs in `unit`; 0 where there is no such word.
     #[must_use]
     pub fn decimals(&self, word: &str, unit: LengthUnit) -> u8 {
-        self.words.get(word).and_then(|w| w.decimals).map_or(0, |d| d.of(unit))
+        let own = self.words.get(word).and_then(|w| w.decimals);
+        let shared = LINEAR_WORDS.contains(&word).then_some(self.numbers.linear_decimals);
+        own.or(shared).map_or(0, |d| d.of(unit))
     }
     /// Largest printed magnitude of a word, in its steps.
     #[must_use]
@@ -412,13 +418,14 @@ impl Spec {
     }
     /// Spelling of a word's number.
     #[must_use]
-    pub fn style(&self, word: &Word, unit: LengthUnit) -> Style {
+    pub fn style(&self, name: &str, word: &Word, unit: LengthUnit) -> Style {
+        let decimals = self.decimals(name, unit);
         Style {
-            decimals: word.decimals.map_or(0, |d| d.of(unit)),
+            decimals,
             point: word.point.unwrap_or(self.numbers.point),
             trailing_zeros: word.trailing_zeros.unwrap_or(self.numbers.trailing_zeros),
             bare_fraction: word.bare_fraction.unwrap_or(self.numbers.bare_fraction),
-            plus: word.plus.unwrap_or(self.numbers.plus && word.decimals.is_some()),
+            plus: word.plus.unwrap_or(self.numbers.plus && decimals > 0),
         }
     }
 }

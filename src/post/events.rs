@@ -546,8 +546,8 @@ impl<'a> Events<'a> {
             .safe_start
             .iter()
             .map(|line| {
-                let codes: Vec<String> =
-                    line.iter().filter_map(|g| spec.groups.get(g)).map(|g| g.start.of(self.unit())).collect();
+                let starts = line.iter().filter_map(|g| spec.groups.get(g)).map(|g| g.start.of(self.unit()));
+                let codes: Vec<String> = starts.filter(|code| !code.is_empty()).collect();
                 codes.join(separator)
             })
             .collect();

@@ -8,10 +8,14 @@ use crate::source::{FileError, FileId, FileProvider, SourceMap, Span};
 
 /// The built-in post files, by name.
 const BUILTIN: &[(&str, &str)] = &[
-    ("iso", include_str!("dialects/iso.post.toml")),
     ("fanuc", include_str!("dialects/fanuc.post.toml")),
     ("grbl", include_str!("dialects/grbl.post.toml")),
+    ("grblhal", include_str!("dialects/grblhal.post.toml")),
+    ("haas", include_str!("dialects/haas.post.toml")),
+    ("iso", include_str!("dialects/iso.post.toml")),
     ("linuxcnc", include_str!("dialects/linuxcnc.post.toml")),
+    ("mazak", include_str!("dialects/mazak.post.toml")),
+    ("mitsubishi", include_str!("dialects/mitsubishi.post.toml")),
 ];
 
 /// Longest chain of `inherits`.

@@ -127,6 +127,11 @@ const NUMBERING: &[Key] = &[
     key("max", Shape::Integer(1, 999_999_999), "largest number; numbering starts again after it"),
 ];
 const NUMBERS: &[Key] = &[
+    key(
+        "linear-decimals",
+        Shape::IntegerByUnit(0, 9),
+        "decimals of x, y, z, i, j, cx, cy and radius, unless the word says otherwise",
+    ),
     key("point", Shape::Choice(&["needed", "always", "digit"]), "`5`, `5.` or `5.0`"),
     key("trailing-zeros", Shape::Flag, "`5.250`"),
     key("bare-fraction", Shape::Flag, "`.5`"),
@@ -173,7 +178,11 @@ const PATTERNS: &[Key] = &[
 ];
 const GROUP: &[Key] = &[
     key("codes", Shape::TextList, "all codes of the group that programs may use"),
-    key("start", Shape::TextByUnit, "the code every program starts with"),
+    key(
+        "start",
+        Shape::TextByUnit,
+        "the code every program starts with; empty: the control does not have the group",
+    ),
 ];
 const ARCS: &[Key] = &[
     key("enabled", Shape::Flag, "the control has circular interpolation"),

@@ -96,7 +96,7 @@ fn axis_modal(spec: &Spec, slot: Slot) -> bool {
 pub(super) fn word(spec: &Spec, name: &str, modal: bool, unit: LengthUnit) -> WordFormat {
     spec.words.get(name).map_or_else(WordFormat::default, |word| WordFormat {
         prefix: word.prefix.as_bytes().into(),
-        style: spec.style(word, unit),
+        style: spec.style(name, word, unit),
         modal: word.modal.unwrap_or(modal),
     })
 }

@@ -28,6 +28,20 @@ fn lines_arcs_and_spirals_meet_the_published_bounds() {
 }
 
 #[test]
+fn every_built_in_post_proves_the_cam_in_both_units() {
+    for post in crate::post::builtin_names() {
+        for inch in [false, true] {
+            let mut draft = draft(Interpolation::Circular).add(RecordKind::Dwell(0.5));
+            if inch {
+                draft.cl.units = INCH;
+            }
+            let made = made(&draft.cl, post, None);
+            assert!(made.certificate.operations[0].blocks <= 15, "{post}");
+        }
+    }
+}
+
+#[test]
 fn every_level_uses_the_same_fit() {
     let mut contour = plate(Interpolation::Circular, Lead::Arc(8.0));
     contour.levels = vec![-2.0, -4.0, -5.0];

@@ -29,10 +29,7 @@ fn complaints(text: &str) -> Vec<String> {
 
 #[test]
 fn a_user_file_inherits_and_changes_only_what_it_says() {
-    let finer: String = ["x", "y", "z", "i", "j", "cx", "cy", "radius"]
-        .map(|w| format!("[words.{w}]\ndecimals = 5\n"))
-        .concat();
-    let dialect = user(&format!("inherits = \"linuxcnc\"\n{finer}")).unwrap();
+    let dialect = user("inherits = \"linuxcnc\"\n[numbers]\nlinear-decimals = 5\n").unwrap();
     assert_eq!(dialect.name(), "my");
     assert_eq!(dialect.control(), "linuxcnc");
     let capabilities = dialect.capabilities(LengthUnit::Inch, None).unwrap();
@@ -150,9 +147,9 @@ fn overrides_go_through_the_same_checks() {
         )
     };
     assert_eq!(set("post.extension", "tap").unwrap().extension(), "tap");
-    let capabilities =
-        set("words.x.decimals", "5").unwrap().capabilities(LengthUnit::Millimetre, None).unwrap();
-    assert_eq!(capabilities.grid.linear_decimals, 5);
+    let finer = set("numbers.linear-decimals", "5").unwrap();
+    assert_eq!(finer.capabilities(LengthUnit::Millimetre, None).unwrap().grid.linear_decimals, 5);
+    assert_eq!(set("words.x.decimals", "5").unwrap_err()[0].code.id, "E0708");
     assert_eq!(set("words.x.decimals", "many").unwrap_err()[0].code.id, "E0704");
     assert_eq!(set("word.x", "1").unwrap_err()[0].code.id, "E0703");
 }
