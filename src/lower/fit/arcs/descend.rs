@@ -7,14 +7,21 @@ use super::search::{
 };
 use super::start::{least, spread};
 use super::stretch::Stretch;
-use crate::math;
 
 /// Shifts of the joints that are tried over the whole stretch, in arcs.
-const PHASES: [f64; 2] = [0.5, 0.0];
+const PHASES: [f64; 3] = [0.5, 0.0, 0.25];
 /// Places where an arc is taken out of a whole chain.
 const PLACES: usize = 3;
 /// Chains up to this length are searched as a whole.
 const WHOLE: usize = 40;
+/// How many arcs fewer are tried from new starts.
+const DEEP: usize = 4;
+/// Chains up to this length are tried to the depth; longer ones as long as there is hope:
+const SMALL: usize = 10;
+/// a count may be better by this factor than the one above it and the third power say.
+const LUCK: f64 = 0.75;
+/// Chains longer than this are searched by windows.
+const LONG: usize = 24;
 /// Arcs of a window.
 const WINDOW: usize = 7;
 /// Arcs between neighbouring windows.
@@ -35,65 +42,69 @@ pub(super) fn descend(
     limit: f64,
 ) -> (Chain, f64) {
     let floor = least(stretch).max(if stretch.closed { 2 } else { 1 });
+    let mut tried = Vec::new();
     while chain.len() > floor {
-        let Some(next) = fewer(&chain, stretch, wish, limit, floor) else { break };
+        let Some(next) = fewer(&chain, stretch, wish, limit, floor, &mut tried) else { break };
         (chain, worst) = next;
     }
-    if chain.len() > WINDOW + 2 {
+    if chain.len() > LONG {
         chain = windows(chain, stretch, &wish.goal, limit);
         worst = measure(&chain, stretch, &wish.goal);
     }
     (chain, worst)
 }
 
-/// A chain of one or a few arcs fewer.
+/// A chain of one or a few arcs fewer; `tried` are the counts that have been tried with the least found for them.
 fn fewer(
     chain: &Chain,
     stretch: &Stretch<'_>,
     wish: &Wish,
     limit: f64,
     floor: usize,
+    tried: &mut Vec<(usize, f64)>,
 ) -> Option<(Chain, f64)> {
     let n = chain.len();
+    let mut least = f64::INFINITY;
     for candidate in without_one(chain, stretch, &wish.goal) {
         let (next, found) = improve(candidate, stretch, &wish.goal, &stop(limit));
         if found <= limit {
             return Some((next, found));
         }
+        least = least.min(found);
     }
     if n > WHOLE || wish.exact {
         return None;
     }
-    for count in expected(chain, stretch, wish, limit).max(floor)..n {
-        if let Some(found) = anew(stretch, wish, limit, count) {
-            return Some(found);
+    for count in (floor.max(n.saturating_sub(DEEP))..n).rev() {
+        if !tried.iter().any(|(c, _)| *c == count) {
+            match anew(stretch, wish, limit, count) {
+                Ok(found) => return Some(found),
+                Err(worst) => tried.push((count, worst.min(least))),
+            }
         }
+        let found = tried.iter().find(|(c, _)| *c == count).map_or(least, |(_, w)| *w);
+        let ratio = count as f64 / (count as f64 - 1.0).max(0.5);
+        if n > SMALL && LUCK * found * ratio * ratio * ratio > limit {
+            break;
+        }
+        least = f64::INFINITY;
     }
     None
 }
 
-/// Fewest arcs worth a trial: the deviation falls with the third power of the count.
-fn expected(chain: &Chain, stretch: &Stretch<'_>, wish: &Wish, limit: f64) -> usize {
-    let polish = Stop { target: 0.0, iterations: 6, gain: 2e-2, smooth: true };
-    let (_, worst) = improve(chain.clone(), stretch, &wish.goal, &polish);
-    let n = chain.len() as f64;
-    let expected = (n * math::cbrt((worst / limit).min(1.0)) - 0.5).ceil() as usize;
-    let least = chain.len().saturating_sub(if chain.len() <= 10 { 4 } else { 3 });
-    if chain.len() <= 10 { least } else { expected.saturating_sub(1).clamp(least, chain.len() - 2) }
-}
-
-/// A chain of `count` arcs from one of several starts.
-fn anew(stretch: &Stretch<'_>, wish: &Wish, limit: f64, count: usize) -> Option<(Chain, f64)> {
-    let middle = wish.goal.band.middle;
+/// A chain of `count` arcs from one of several starts, or the least deviation from the middle of the band found.
+fn anew(stretch: &Stretch<'_>, wish: &Wish, limit: f64, count: usize) -> Result<(Chain, f64), f64> {
     let density = density(stretch, count);
+    let mut least = f64::INFINITY;
     for phase in PHASES {
-        let start = with_ends(spread(stretch, &density, count, phase, middle), wish);
+        let start = with_ends(spread(stretch, &density, count, phase, wish.goal.band.middle), wish);
         let (next, found) = settle(start, stretch, &wish.goal, limit);
         if found <= limit {
-            return Some((next, found));
+            return Ok((next, found));
         }
+        least = least.min(found);
     }
-    None
+    Err(least)
 }
 
 /// The chain with an arc taken out, at the places with the most slack.

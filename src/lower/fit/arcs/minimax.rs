@@ -341,8 +341,6 @@ impl Problem {
             Interior { problem: self, rows, sides: vec![[Side::default(); 2]; self.rows.len()], x };
         state.start();
         for _ in 0..ITERATIONS {
-            #[cfg(test)]
-            super::optimise::ITER.with(|c| c.set(c.get() + 1));
             if state.step(&mut matrix, accuracy)? {
                 break;
             }

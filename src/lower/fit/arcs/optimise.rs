@@ -52,8 +52,6 @@ pub(super) fn improve(mut chain: Chain, stretch: &Stretch<'_>, goal: &Goal, stop
         rows(&chain, stretch, goal, &mut problem.rows);
         scale_rows(&mut problem.rows, &scales);
         boxes(&chain, &mut problem.rows, &scales);
-        #[cfg(test)]
-        COUNT.with(|c| c.set(c.get() + 1));
         let Some(solution) = problem.solve(LINEAR) else { break };
         let step: Vec<f64> = solution.x.iter().zip(&scales).map(|(x, s)| x * s).collect();
         let mut next = chain.moved(stretch, &step);
@@ -152,10 +150,4 @@ pub(super) fn natural_halves(chain: &mut Chain) {
             chain.members[i] = Member::Arc(0.5 * (before + after));
         }
     }
-}
-
-#[cfg(test)]
-thread_local! {
-    pub(super) static COUNT: std::cell::Cell<usize> = const { std::cell::Cell::new(0) };
-    pub(super) static ITER: std::cell::Cell<usize> = const { std::cell::Cell::new(0) };
 }

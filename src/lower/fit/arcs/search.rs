@@ -46,6 +46,9 @@ pub(super) fn fewest(stretch: &Stretch<'_>, wish: &Wish) -> Option<(Chain, f64)>
     let mut best: Option<(Chain, f64)> = None;
     let mut try_from = |chain: Chain| {
         let most = best.as_ref().map_or(4 * chain.len() + 40, |(c, _)| c.len());
+        if chain.len() >= most && best.as_ref().is_some_and(|(_, w)| *w > 1e-3 * limit) {
+            return;
+        }
         let Some((chain, worst)) = grow(chain, stretch, goal, limit, most) else { return };
         let (chain, worst) = descend(chain, worst, stretch, wish, limit);
         let better = |(c, w): &(Chain, f64)| (chain.len(), worst) < (c.len(), *w);
@@ -56,10 +59,12 @@ pub(super) fn fewest(stretch: &Stretch<'_>, wish: &Wish) -> Option<(Chain, f64)>
     if wish.exact && exact::kept(stretch, Keep::Arcs).0 {
         keep(Keep::Arcs).into_iter().for_each(&mut try_from);
     } else {
-        if exact::kept(stretch, Keep::ArcsAndLines).0 {
-            keep(Keep::ArcsAndLines).into_iter().for_each(&mut try_from);
+        try_from(with_ends(spread(stretch, &density, n, 0.0, goal.band.middle), wish));
+        if exact::kept(stretch, Keep::ArcsAndLines).0
+            && let Some(chain) = keep(Keep::ArcsAndLines)
+        {
+            try_from(chain);
         }
-        try_from(with_ends(spread(stretch, &density, n, 0.5, goal.band.middle), wish));
     }
     let (chain, _) = best?;
     let stop = Stop { target: 0.0, iterations: POLISH_ITERATIONS, gain: 2e-3, smooth: true };

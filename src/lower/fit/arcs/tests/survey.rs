@@ -251,13 +251,6 @@ fn speed() {
             n = arcs(&tube, &grid, exact, None).unwrap().primitives.len();
             time = time.min(cpu_ms() - clock);
         }
-        println!(
-            "lp {} it {}",
-            super::super::optimise::COUNT.get() / 15,
-            super::super::optimise::ITER.get() / 15
-        );
-        super::super::optimise::COUNT.set(0);
-        super::super::optimise::ITER.set(0);
         println!("speed {left} {right} {exact} n {n} {time:.2} ms");
     }
 }
