@@ -15,7 +15,7 @@ use super::{FitError, Grid, Tube};
 /// Laps that a closed curve's bound may cost, by the number of links.
 fn laps_allowed(links: u32) -> u32 {
     match links {
-        0..=400 => 24,
+        0..=400 => 15,
         401..=4_000 => 8,
         _ => 3,
     }

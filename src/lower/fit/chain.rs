@@ -18,6 +18,9 @@ const RETRIES: [f64; 4] = [1.0, 0.998, 0.99, 0.96];
 /// Chains of no more links than this that miss the bound are searched for once more, widely: there the grid decides.
 const FEW: usize = 16;
 
+/// Another start is worth trying when no more than this part of a link is missing.
+const WORTH: f64 = 0.25;
+
 /// A chain of grid vertices; the last one closes it or ends it.
 #[derive(Debug, Clone)]
 struct Chain {
@@ -59,7 +62,7 @@ pub fn fit(tube: &Tube, plane: Plane, start: Option<f64>) -> Result<Fit, FitErro
 fn effort(links: f64) -> (Effort, u32) {
     match links {
         n if n < 12.0 => (Effort { beam: 8, tries: 8, all: false }, 8),
-        n if n < 300.0 => (Effort { beam: 4, tries: 6, all: false }, 4),
+        n if n < 300.0 => (Effort { beam: 4, tries: 5, all: false }, 3),
         n if n < 3_000.0 => (Effort { beam: 3, tries: 4, all: false }, 3),
         n if n < 30_000.0 => (Effort { beam: 2, tries: 3, all: false }, 1),
         _ => (Effort { beam: 2, tries: 2, all: false }, 0),
@@ -148,8 +151,8 @@ impl Solver<'_> {
         let n = self.stations.stations.len();
         let link = (n / best.links().max(1)).max(1);
         for round in 1..=rounds.min(3) {
-            let near = best.fraction < best.links() as f64 - 0.6;
-            if best.links() <= self.bound as usize || !near && round > 2 {
+            let missing = best.fraction - (best.links() - 1) as f64;
+            if best.links() <= self.bound as usize || missing > WORTH {
                 return;
             }
             let shifted = from + link * round as usize / 4;
@@ -224,7 +227,7 @@ impl Solver<'_> {
         let heads = self.search.run(&endless, &[first], Goal::Beyond(from + n - 1), narrow)?;
         let mut best: Option<Vec<Vertex>> = None;
         let mut error = Stuck { gate: from };
-        for head in heads.into_iter().take(if n < 20_000 { 2 } else { 1 }) {
+        for head in heads.into_iter().take(if link * 24.0 > n as f64 { 2 } else { 1 }) {
             let head = unwind(head, gates);
             match self.lap(gates, head, effort) {
                 Ok(chain) if best.as_ref().is_none_or(|b| better(&chain, b)) => best = Some(chain),

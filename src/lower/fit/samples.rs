@@ -108,7 +108,7 @@ impl PlanarCurve for Fourier {
         &self.breaks
     }
     fn is_closed(&self) -> bool {
-        self.breaks[1] - self.breaks[0] > 6.283
+        self.breaks[1] - self.breaks[0] > math::TAU - 1e-3
     }
 }
 

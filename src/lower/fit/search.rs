@@ -68,6 +68,8 @@ pub enum Goal {
 pub struct Search {
     stab: Stab,
     found: Vec<(f64, [i64; 2])>,
+    /// The aim from the best vertex of the layer; vertices whose view stops at the same gate have it too, nearly.
+    aim: Option<(Exit, usize, View)>,
 }
 
 impl Search {
@@ -112,6 +114,7 @@ impl Search {
         effort: Effort,
     ) -> Vec<usize> {
         let mut next: Vec<usize> = Vec::new();
+        self.aim = None;
         for &parent in layer {
             let (vertex, view) = (nodes[parent].vertex, nodes[parent].view);
             self.candidates(course, &vertex, &view, effort);
@@ -133,7 +136,11 @@ impl Search {
     fn candidates(&mut self, course: &Course, from: &Vertex, view: &View, effort: Effort) {
         self.found.clear();
         let Some(window) = view.window(course) else { return };
-        let aim = self.stab.view(course, &window);
+        let aim = match self.aim {
+            Some((exit, stop, aim)) if exit == view.exit && stop == view.stop && !effort.all => aim,
+            _ => self.stab.view(course, &window),
+        };
+        self.aim.get_or_insert((view.exit, view.stop, aim));
         let scan = Scan::new(course, from, view, &aim);
         scan.run(effort.tries, &mut self.found);
         if self.found.is_empty() || effort.all {
@@ -321,8 +328,9 @@ impl<'a> Scan<'a> {
         found: &mut Vec<(f64, [i64; 2])>,
     ) {
         let rings = if self.either { 4 } else { 1 };
+        let below = floor(ideal);
         for ring in 0..rings {
-            for y in [ideal.floor() - f64::from(ring), ideal.floor() + 1.0 + f64::from(ring)] {
+            for y in [below - f64::from(ring), below + 1.0 + f64::from(ring)] {
                 if y >= span.0 && y <= span.1 {
                     insert(found, tries, self.cost(column, y), self.point(column, y));
                 }
@@ -351,6 +359,12 @@ impl<'a> Scan<'a> {
     fn point(&self, column: f64, y: f64) -> [i64; 2] {
         if self.axis == 0 { [column as i64, y as i64] } else { [y as i64, column as i64] }
     }
+}
+
+/// The integer at or below a coordinate; coordinates fit 64 bits ([`super::tube`] sees to it).
+fn floor(x: f64) -> f64 {
+    let whole = x as i64 as f64;
+    if whole > x { whole - 1.0 } else { whole }
 }
 
 /// Where the ray from `p` along `d` meets the line of `plane`; `or` when they do not meet.

@@ -412,7 +412,7 @@ fn exhaustive(tube: &Tube, grid: &Grid, fit: &Fit) -> usize {
     let ends = path(fit, grid, 1);
     vertices.push((0, ends[0]));
     vertices.push((curve.len() - 1, ends[ends.len() - 1]));
-    vertices.sort_by(|a, b| a.0.cmp(&b.0));
+    vertices.sort_by_key(|v| v.0);
     let sees = |a: &(usize, Point2), b: &(usize, Point2)| {
         (a.0 + 1..b.0).all(|i| {
             let f = &curve[i].f;

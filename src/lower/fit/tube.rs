@@ -21,7 +21,7 @@ const FAN: f64 = 0.08;
 /// An offset towards the centre of curvature goes no further than this part of the radius.
 const CENTRE: f64 = 0.9;
 /// Smallest sampling error that is resolved, mm.
-const FINEST: f64 = 1e-8;
+const FINEST: f64 = 1e-9;
 /// More stations than this are not a path but a mistake in the tolerance.
 const MOST_STATIONS: usize = 40_000_000;
 
