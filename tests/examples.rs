@@ -1,0 +1,97 @@
+//! Every example, every stage, every dialect: compiled, proven and snapshotted, found by directory.
+//!
+//! `INSTA_UPDATE=always cargo test --test examples` rewrites the snapshots; the difference is then reviewed
+//! as if one ran the machine. `EXAMPLES=part-of-a-name` runs some of them.
+
+mod common;
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use common::Directory;
+use partwright::diag::render;
+use partwright::driver::{self, Build, Options};
+
+/// Lines of an emitted text that a snapshot shows in full; of longer ones, head, tail and the digest.
+const WHOLE: usize = 400;
+const EXCERPT: usize = 60;
+
+fn examples() -> Vec<PathBuf> {
+    let wanted = std::env::var("EXAMPLES").unwrap_or_default();
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
+    let mut found = common::find(&folder, "apt");
+    found.retain(|p| p.to_string_lossy().contains(&wanted));
+    found
+}
+
+fn compile(path: &Path, posts: &[&str]) -> (String, Build) {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
+    let name = path.strip_prefix(&folder).expect("an example").to_string_lossy().replace('\\', "/");
+    let options = Options { posts: posts.iter().map(|p| (*p).to_owned()).collect(), ..Options::default() };
+    let build = driver::build(&name, &Directory(folder), &options);
+    (name, build)
+}
+
+/// The text, or its head and tail with a digest of all of it.
+fn excerpt(text: &str) -> String {
+    let lines: Vec<&str> = text.lines().collect();
+    if lines.len() <= WHOLE {
+        return text.to_owned();
+    }
+    let mut out = lines[..EXCERPT].join("\n");
+    let left_out = lines.len() - 2 * EXCERPT;
+    let _ = write!(out, "\n… {left_out} lines, fnv1a {:016x} of the whole …\n", fnv1a(text.as_bytes()));
+    out.push_str(&lines[lines.len() - EXCERPT..].join("\n"));
+    out.push('\n');
+    out
+}
+
+fn fnv1a(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3)
+    })
+}
+
+fn messages(build: &Build) -> String {
+    build.diagnostics.iter().map(|d| render::render(d, &build.sources, render::Format::Short, false)).collect()
+}
+
+fn snapshot(name: &str, stage: &str, text: &str) {
+    let mut settings = insta::Settings::clone_current();
+    settings.set_snapshot_path(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/snapshots/examples"));
+    settings.set_prepend_module_to_snapshot(false);
+    settings.set_omit_expression(true);
+    let file = format!("{}.{stage}", name.trim_end_matches(".apt").replace('/', "-"));
+    settings.bind(|| insta::assert_snapshot!(file, text));
+}
+
+#[test]
+fn every_stage_of_every_example_is_as_reviewed() {
+    let examples = examples();
+    assert!(!examples.is_empty(), "no examples found");
+    for path in examples {
+        let (name, build) = compile(&path, &[]);
+        assert!(!build.has_errors(), "{name}:\n{}", messages(&build));
+        snapshot(&name, "messages", &messages(&build));
+        snapshot(&name, "ir", &excerpt(&build.ir_text().expect("an IR")));
+        snapshot(&name, "cl", &excerpt(&build.cl_text().expect("CL data")));
+        for output in &build.outputs {
+            let target = output.target_text().expect("a lowered program");
+            snapshot(&name, &format!("{}.target", output.post), &excerpt(&target));
+        }
+    }
+}
+
+/// An example either comes out proven, or is refused with a coded error; which of the two is in the snapshot.
+#[test]
+fn every_example_posts_to_every_dialect() {
+    for path in examples() {
+        for post in partwright::post::builtin_names() {
+            let (name, build) = compile(&path, &[post]);
+            let text = build.outputs.first().and_then(|o| o.text()).map(excerpt);
+            assert_eq!(text.is_none(), build.has_errors(), "{name} for {post}:\n{}", messages(&build));
+            let text = text.unwrap_or_else(|| format!("refused:\n{}", messages(&build)));
+            snapshot(&name, &format!("{post}.nc"), &text);
+        }
+    }
+}
