@@ -53,7 +53,11 @@ fn fnv1a(bytes: &[u8]) -> u64 {
 }
 
 fn messages(build: &Build) -> String {
-    build.diagnostics.iter().map(|d| render::render(d, &build.sources, render::Format::Short, false)).collect()
+    build
+        .diagnostics
+        .iter()
+        .map(|d| render::render(d, &build.sources, render::Format::Short, false))
+        .collect()
 }
 
 fn snapshot(name: &str, stage: &str, text: &str) {
