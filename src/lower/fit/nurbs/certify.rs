@@ -26,6 +26,8 @@ pub(super) struct Station {
     pub e: f64,
     /// Second derivative of the deviation by the parameter.
     bend: f64,
+    /// Whether the spline goes forward along the curve here.
+    forward: bool,
 }
 
 /// Deviation of the spline's point at `t` in knot interval `i`, the foot sought from `near`.
@@ -49,10 +51,11 @@ pub(super) fn station(spline: &Spline, stretch: &Stretch<'_>, i: usize, t: f64, 
     let n = left(f.t);
     let e = (jet.p - f.p).dot(&n);
     let run = jet.d.dot(&f.t);
-    Station { t, s, e, bend: jet.dd.dot(&n) - f.k * run * run / (1.0 - f.k * e).max(0.1) }
+    let bend = jet.dd.dot(&n) - f.k * run * run / (1.0 - f.k * e).max(0.1);
+    Station { t, s, e, bend, forward: run > 0.0 }
 }
 
-/// Least and largest deviation, mm.
+/// Least and largest deviation, mm; without bound for a spline that runs back along the curve somewhere.
 pub(super) fn extremes(spline: &Spline, stretch: &Stretch<'_>, start: f64) -> (f64, f64) {
     let mut found = (f64::INFINITY, f64::NEG_INFINITY);
     let mut near = start;
@@ -83,6 +86,10 @@ fn search(
 ) {
     found.0 = found.0.min(a.e).min(b.e);
     found.1 = found.1.max(a.e).max(b.e);
+    if !(a.forward && b.forward && b.s > a.s) {
+        *found = (f64::NEG_INFINITY, f64::INFINITY);
+        return;
+    }
     let h = b.t - a.t;
     let bend = SAFETY * (a.bend.abs().max(b.bend.abs()) + (a.bend - b.bend).abs());
     let rise = bend * h * h / 8.0;
