@@ -20,7 +20,8 @@ fn examples() -> Vec<PathBuf> {
     let wanted = std::env::var("EXAMPLES").unwrap_or_default();
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
     let mut found = common::find(&folder, "apt");
-    found.retain(|p| p.to_string_lossy().contains(&wanted));
+    // Folders hold what programs include.
+    found.retain(|p| p.parent() == Some(folder.as_path()) && p.to_string_lossy().contains(&wanted));
     found
 }
 
