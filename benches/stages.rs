@@ -13,6 +13,7 @@ use partwright::driver::{self, Options};
 use partwright::ir::Origin;
 use partwright::source::{FileId, MemoryFiles, SourceMap, Span};
 use partwright::target::{Block, BlockKind, FeedWord, Motion, Position, TargetProgram};
+use partwright::units::LengthUnit;
 use partwright::{lower, plan, post, readback, sema, syntax, verify};
 
 const RUNS: usize = 15;
@@ -65,10 +66,10 @@ fn stages(text: &str) {
     });
     let cl = plan::plan(&ir, &mut sink).expect("CL data");
     let loaded = median(|| {
-        black_box(post::load("linuxcnc", &files).expect("a dialect"));
+        black_box(post::load("linuxcnc", &files, &mut SourceMap::default()).expect("a dialect"));
     });
-    let dialect = post::load("linuxcnc", &files).expect("a dialect");
-    let capabilities = dialect.capabilities(None).expect("capabilities");
+    let dialect = post::load("linuxcnc", &files, &mut SourceMap::default()).expect("a dialect");
+    let capabilities = dialect.capabilities(None, LengthUnit::Millimetre).expect("capabilities");
     let lowered = median(|| {
         black_box(lower::lower(&cl, &capabilities, &mut Sink::default()));
     });
@@ -95,8 +96,8 @@ fn stages(text: &str) {
 fn million_blocks() {
     const BLOCKS: u32 = 1_000_000;
     let files = MemoryFiles::default();
-    let dialect = post::load("linuxcnc", &files).expect("a dialect");
-    let capabilities = dialect.capabilities(None).expect("capabilities");
+    let dialect = post::load("linuxcnc", &files, &mut SourceMap::default()).expect("a dialect");
+    let capabilities = dialect.capabilities(None, LengthUnit::Millimetre).expect("capabilities");
     let mut origins = Arena::default();
     let origin = origins.push(Origin { span: Span::new(FileId(0), 0, 0), calls: Vec::new() });
     let block = |kind| Block { kind, origin, piece: None };
