@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 use common::Directory;
 use partwright::diag::render;
 use partwright::driver::{self, Build, Options};
+use partwright::{cl, ir, target};
 
 /// Lines of an emitted text that a snapshot shows in full; of longer ones, head, tail and the digest.
 const WHOLE: usize = 400;
@@ -78,10 +79,10 @@ fn every_stage_of_every_example_is_as_reviewed() {
         let (name, build) = compile(&path, &[]);
         assert!(!build.has_errors(), "{name}:\n{}", messages(&build));
         snapshot(&name, "messages", &messages(&build));
-        snapshot(&name, "ir", &excerpt(&build.ir_text().expect("an IR")));
-        snapshot(&name, "cl", &excerpt(&build.cl_text().expect("CL data")));
+        snapshot(&name, "ir", &excerpt(&ir::print::print(build.ir.as_ref().expect("an IR"), &build.sources)));
+        snapshot(&name, "cl", &excerpt(&cl::print::print(build.cl.as_ref().expect("CL data"))));
         for output in &build.outputs {
-            let target = output.target_text().expect("a lowered program");
+            let target = target::print::print(output.target.as_ref().expect("a lowered program"));
             snapshot(&name, &format!("{}.target", output.post), &excerpt(&target));
         }
     }
@@ -93,7 +94,7 @@ fn every_example_posts_to_every_dialect() {
     for path in examples() {
         for post in partwright::post::builtin_names() {
             let (name, build) = compile(&path, &[post]);
-            let text = build.outputs.first().and_then(|o| o.text()).map(excerpt);
+            let text = build.outputs.first().and_then(|o| o.proven.as_ref()).map(|p| excerpt(p.text()));
             assert_eq!(text.is_none(), build.has_errors(), "{name} for {post}:\n{}", messages(&build));
             let text = text.unwrap_or_else(|| format!("refused:\n{}", messages(&build)));
             snapshot(&name, &format!("{post}.nc"), &text);
