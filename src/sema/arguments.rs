@@ -147,7 +147,7 @@ impl Analyser<'_> {
             }
         }
         let poisoned = tokens.iter().any(Token::is_poison);
-        (!work.failed && !poisoned).then(|| Matched { form: form.name, word: work.word, found: work.found })
+        (!work.failed && !poisoned).then_some(Matched { form: form.name, word: work.word, found: work.found })
     }
 
     fn fail(&mut self, work: &mut Work<'_, '_>, problem: Diagnostic) {
@@ -187,8 +187,24 @@ impl Analyser<'_> {
     fn unknown_argument(&self, statement: &Statement, token: &Token<'_>, expected: &Expected) -> Diagnostic {
         let text = forms::written(token);
         let near_word = did_you_mean(&text, expected.words.iter().copied());
+        let only =
+            |f: fn(Kind) -> bool| expected.words.is_empty() && expected.slots.iter().all(|s| f(s.kind));
         match token.name {
-            Some(name) if near_word.is_none() && !expected.slots.is_empty() => {
+            Some(name) if !expected.slots.is_empty() && only(|k| k == Kind::Binding) => {
+                let message = format!("{} wants a value for {}", statement.word, name.text);
+                Diagnostic::new(&codes::MISSING_VALUE, token.span, message)
+                    .help(format!("write `{} = …`", name.text))
+            }
+            Some(name) if !expected.slots.is_empty() && only(|k| k == Kind::Text) => {
+                let message = format!("{} takes {} here", statement.word, expected.text());
+                Diagnostic::new(&codes::WRONG_KIND, token.span, message)
+                    .help(format!("write `'{}'`", name.text))
+            }
+            Some(name)
+                if near_word.is_none()
+                    && !expected.slots.is_empty()
+                    && matches!(token.kind, TokenKind::Unknown) =>
+            {
                 let problem = self.unknown_name(name);
                 problem.note(format!("{} takes {} here", statement.word, expected.text()))
             }
@@ -207,6 +223,10 @@ impl Analyser<'_> {
             self.fail(work, problem);
             return;
         };
+        if token.is_poison() {
+            work.failed = true;
+            return;
+        }
         let problem = match (&token.kind, before) {
             (TokenKind::Word(w), _) if !work.statement.has_minor_word(w) => {
                 self.unknown_argument(work.statement, token, &expected)
@@ -286,6 +306,10 @@ impl Analyser<'_> {
                 continue;
             }
             if let Some(slot) = unnamed_slot(form, token) {
+                if work.found.iter().any(|f| f.name == slot.name) {
+                    let message = format!("{} takes {} once", work.statement.word, forms::slot_text(slot));
+                    self.fail(work, Diagnostic::new(&codes::TOO_MANY, token.span, message));
+                }
                 self.accept(work, None, slot, token);
                 i += 1;
                 continue;
@@ -311,14 +335,7 @@ impl Analyser<'_> {
         let first = given.iter().find(|(o, ..)| core::ptr::eq(*o, option)).copied();
         given.push((option, word, span));
         let Some((_, other, first)) = first.filter(|_| !form.ordered) else { return };
-        let problem = if other == word {
-            Diagnostic::new(&codes::DOUBLED_WORD, span, format!("{word} is given twice"))
-                .label(first, "first here")
-        } else {
-            Diagnostic::new(&codes::WORDS_EXCLUDE, span, format!("{word} and {other} exclude each other"))
-                .label(first, format!("{other} is given here"))
-        };
-        self.fail(work, problem);
+        self.fail(work, exclusive(word, span, Some((other, first))));
     }
 
     /// The values after an option's word; returns where the next option starts.
@@ -429,6 +446,10 @@ impl Analyser<'_> {
         });
         let options: Vec<&str> = form.options.iter().flat_map(|o| o.words).map(|c| c.word).collect();
         let problem = match &token.kind {
+            TokenKind::Word(w) if alternative(work, form, w).is_some() => {
+                let first = alternative(work, form, w);
+                exclusive(w, token.span, first)
+            }
             TokenKind::Word(w) if work.statement.has_minor_word(w) => {
                 let what = if form.help.is_empty() { form.name } else { form.help };
                 let problem = Diagnostic::new(
@@ -727,6 +748,29 @@ impl Analyser<'_> {
     }
 }
 
+/// The word of the lead that excludes `word`, with its place.
+fn alternative(work: &Work<'_, '_>, form: &'static Form, word: &str) -> Option<(&'static str, Span)> {
+    let item = form.lead.iter().find_map(|item| match item {
+        Item::Word(name, choices) if choices.iter().any(|c| c.word == word) => Some(*name),
+        _ => None,
+    })?;
+    work.found.iter().find_map(|f| match f.typed {
+        Typed::Word(given) if f.name == item => Some((given, f.span)),
+        _ => None,
+    })
+}
+
+/// Two words of which a statement takes one, or one word twice.
+fn exclusive(word: &str, span: Span, first: Option<(&'static str, Span)>) -> Diagnostic {
+    let (other, at) = first.unwrap_or(("", span));
+    if other == word {
+        Diagnostic::new(&codes::DOUBLED_WORD, span, format!("{word} is given twice")).label(at, "first here")
+    } else {
+        Diagnostic::new(&codes::WORDS_EXCLUDE, span, format!("{word} and {other} exclude each other"))
+            .label(at, format!("{other} is given here"))
+    }
+}
+
 /// `HEIGHT = 12` among the options.
 fn binding_problem(
     statement: &Statement,
@@ -752,7 +796,7 @@ fn place(statement: &Statement, word: Option<&str>, slot: &Slot) -> String {
     match word {
         Some(word) if word.eq_ignore_ascii_case(slot.name) => format!("{word} of {of}"),
         Some(word) => format!("the {} after {word} of {of}", slot.name),
-        None if slot.name == slot.help => format!("`{}` of {of}", slot.name),
+        None if slot.name == slot.help && slot.name.len() <= SHORT_NAME => format!("`{}` of {of}", slot.name),
         None if slot.name.len() <= SHORT_NAME => format!("`{}` of {of} ({})", slot.name, slot.help),
         None => format!("the {} of {of}", slot.name),
     }
@@ -769,7 +813,10 @@ fn find_option(form: &'static Form, token: &Token<'_>) -> Option<(&'static Choic
 /// The slot of an option that needs no word.
 fn unnamed_slot(form: &'static Form, token: &Token<'_>) -> Option<&'static Slot> {
     form.options.iter().filter(|o| o.words.is_empty()).flat_map(|o| o.values).find_map(|item| match item {
-        Item::Value(slot) if token.fits(slot.kind) && !token.is_poison() => Some(slot),
+        Item::Value(slot) => {
+            let value = matches!(token.kind, TokenKind::Value(_)) && !token.is_poison();
+            (value && token.fits(slot.kind)).then_some(slot)
+        }
         _ => None,
     })
 }

@@ -193,6 +193,11 @@ impl Matcher<'_> {
         }
     }
 
+    /// Whether a statement could not be read; its own message is enough.
+    fn is_lost(&self, index: usize) -> bool {
+        self.statements.get(index).is_some_and(|s| matches!(s.kind, StatementKind::Bad { .. }))
+    }
+
     fn span(&self, index: usize) -> Option<Span> {
         self.statements.get(index).map(|s| s.span)
     }
@@ -249,6 +254,9 @@ impl Matcher<'_> {
     }
 
     fn unclosed(&mut self, open: &Open, found: Option<usize>) {
+        if open.branches.first().is_some_and(|&i| self.is_lost(i)) {
+            return;
+        }
         let Some(span) = open.branches.first().and_then(|&i| self.span(i)) else { return };
         let (start, end) = open.block.words();
         let mut problem = Diagnostic::new(&codes::BLOCK, span, format!("this {start} has no {end}"))
@@ -260,6 +268,9 @@ impl Matcher<'_> {
     }
 
     fn stray(&mut self, i: usize, word: &str, start: &str) {
+        if self.is_lost(i) {
+            return;
+        }
         let Some(span) = self.span(i) else { return };
         let mut problem = Diagnostic::new(&codes::BLOCK, span, format!("{word} without {start}"));
         if let Some(open) = self.open.last()

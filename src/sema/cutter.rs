@@ -163,6 +163,13 @@ impl Analyser<'_> {
 
     /// `B1 = STOCK/ …`.
     pub(super) fn stock(&mut self, m: &Matched, name: &str) -> Option<Value> {
+        if m.form == "stl" {
+            let message = "STOCK/ STL is a form that this version does not carry out yet";
+            self.report(
+                Diagnostic::new(&codes::NOT_YET, m.span("shape"), message).help("use ROUND or BLOCK"),
+            );
+            return None;
+        }
         let shape = if m.form == "round" {
             StockShape::Round { radius: m.number("radius")?, height: m.number("height") }
         } else {

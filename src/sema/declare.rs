@@ -41,7 +41,7 @@ impl Analyser<'_> {
     /// The row of the table, unless the word is unknown or not for this version.
     fn statement_row(&mut self, command: &Command) -> Option<&'static Statement> {
         for word in command.prefixes.iter().chain([&command.word]) {
-            let Some(row) = vocab::find(&word.text) else {
+            let Some(row) = self.row_of(word) else {
                 self.unknown_word(word);
                 return None;
             };
@@ -55,7 +55,7 @@ impl Analyser<'_> {
             self.report(Diagnostic::new(&codes::UNKNOWN_MINOR, first.span, message));
             return None;
         }
-        let row = vocab::find(&command.word.text)?;
+        let row = self.row_of(&command.word)?;
         if row.usage == Usage::Structure && row.forms.is_empty() {
             let message = format!("{} is not written like this", row.word);
             let first = row.example.lines().next().unwrap_or(row.word);
@@ -65,6 +65,15 @@ impl Analyser<'_> {
             return None;
         }
         Some(row)
+    }
+
+    /// The row of a word; a macro's parameter may stand for one.
+    fn row_of(&self, word: &Name) -> Option<&'static Statement> {
+        let bound = self.scope.get(&word.upper()).map(|b| &b.kind);
+        match bound {
+            Some(BindingKind::Variable(Value::Word(meant))) => vocab::find(meant),
+            _ => vocab::find(&word.text),
+        }
     }
 
     fn not_yet(&mut self, row: &Statement, span: Span) {
@@ -410,6 +419,12 @@ impl Analyser<'_> {
                     result.push((q.value + SUBSCRIPT_SLACK).floor() as i64);
                 }
                 Value::Poison => return None,
+                Value::Word(word) => {
+                    let message =
+                        format!("lists of elements ({word}) are not carried out yet; name the elements");
+                    self.report(Diagnostic::new(&codes::NOT_YET, expr.span, message));
+                    return None;
+                }
                 other => {
                     let message = format!("a subscript is a pure number, not {}", other.kind_name());
                     self.report(Diagnostic::new(&codes::SUBSCRIPT, expr.span, message));

@@ -1,9 +1,9 @@
 //! Limits that keep any program from taking long or much memory.
 
 /// Passes of one loop.
-pub const LOOP_PASSES: u64 = 500_000;
+pub const LOOP_PASSES: u64 = 300_000;
 /// Statements carried out in all.
-pub const STATEMENTS: u64 = 5_000_000;
+pub const STATEMENTS: u64 = 2_000_000;
 /// Macros that call one another.
 pub const CALL_DEPTH: usize = 64;
 /// Files that include one another.

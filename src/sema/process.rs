@@ -387,11 +387,7 @@ impl Analyser<'_> {
     /// `PARTNO`, `PPRINT`, `INSERT` …
     pub(super) fn text(&mut self, word: &Name, text: &str) {
         match word.upper().as_str() {
-            "PARTNO" => {
-                if self.program.title.is_none() {
-                    self.program.title = Some(text.to_owned());
-                }
-            }
+            "PARTNO" if self.program.title.is_none() => self.program.title = Some(text.to_owned()),
             "PPRINT" => self.step(StepKind::Comment(text.to_owned())),
             "INSERT" => self.step(StepKind::Insert(text.to_owned())),
             _ => {}

@@ -133,7 +133,7 @@ impl Analyser<'_> {
             let binding = binding.clone();
             return as_token(self.bound_value(name, &binding));
         }
-        if vocab::is_reserved(&upper) { TokenKind::Word(upper) } else { TokenKind::Unknown }
+        if vocab::is_word(&upper) { TokenKind::Word(upper) } else { TokenKind::Unknown }
     }
 }
 

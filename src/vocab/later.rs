@@ -98,4 +98,7 @@ pub const ROWS: &[Statement] = &[
     later("ISTOP", "interrupt stop"),
     later("SWITCH", "switch"),
     later("RESET", "reset"),
+    later("TMARK", "tape mark"),
+    later("CHECK", "limits of travel"),
+    later("SAFETY", "safety distances"),
 ];

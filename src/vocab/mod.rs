@@ -367,10 +367,16 @@ struct Index {
     majors: BTreeMap<&'static str, &'static Statement>,
     functions: BTreeMap<&'static str, &'static Function>,
     reserved: BTreeSet<&'static str>,
+    words: BTreeSet<&'static str>,
 }
 
 static INDEX: LazyLock<Index> = LazyLock::new(|| {
-    let mut index = Index { majors: BTreeMap::new(), functions: BTreeMap::new(), reserved: BTreeSet::new() };
+    let mut index = Index {
+        majors: BTreeMap::new(),
+        functions: BTreeMap::new(),
+        reserved: BTreeSet::new(),
+        words: BTreeSet::new(),
+    };
     for row in statements() {
         for name in core::iter::once(&row.word).chain(row.aliases) {
             index.majors.insert(name, row);
@@ -385,6 +391,8 @@ static INDEX: LazyLock<Index> = LazyLock::new(|| {
         }
     }
     index.reserved.extend(STRUCTURE_WORDS);
+    index.words.extend(&index.reserved);
+    index.words.extend(statements().flat_map(Statement::minor_words));
     for free in NOT_RESERVED {
         index.reserved.remove(free);
     }
@@ -421,6 +429,12 @@ pub fn find_function(name: &str) -> Option<&'static Function> {
 #[must_use]
 pub fn is_reserved(word: &str) -> bool {
     INDEX.reserved.contains(word.to_ascii_uppercase().as_str())
+}
+
+/// Whether this is a word of the language at some place, reserved or not.
+#[must_use]
+pub fn is_word(word: &str) -> bool {
+    INDEX.words.contains(word.to_ascii_uppercase().as_str())
 }
 
 /// Every major word and alias, in alphabetical order.

@@ -111,6 +111,15 @@ const STOCK: &[Form] = &[
         ],
         &[],
     ),
+    form(
+        "stl",
+        "any shape; a later version reads it",
+        &[
+            Item::Word("shape", &[word("STL", "triangles from a file")]),
+            value("file", Kind::Text, "path, relative to this file"),
+        ],
+        &[],
+    ),
 ];
 
 const STOCK_MEMBERS: &[Member] = &[
