@@ -17,6 +17,10 @@ use crate::geom::curve::{CircularArc, CurveRef, into_domain, restarted};
 use crate::geom::{Point2, Side, Vec2, cross};
 use crate::math::{TAU, acos, asin, atan2, cos, sin_cos};
 
+/// Path left out at the end of a full circle, mm; the ridge between the cutter's first and last place there is
+/// GAP²/8 radius high.
+const GAP: f64 = 0.5;
+
 /// Clears the blank by full circles as far as the cam's largest radius allows, and leaves it outside the blank.
 /// Returns the radius that is left, mm; the blank's own when there is no circle to cut.
 pub(super) fn full(job: &Job, plan: &mut Plan) -> f64 {
@@ -31,9 +35,11 @@ pub(super) fn full(job: &Job, plan: &mut Plan) -> f64 {
         left -= job.step;
         let radius = left + job.cutter;
         let Some(start) = touch(plan, job, radius, ccw) else { return left };
-        if let Some(circle) = CircularArc::circle(Point2::origin(), radius, start, ccw) {
-            let circle: CurveRef = Arc::new(circle);
-            plan.round(&circle, job.part, job.band);
+        // Open by a gap that leaves no step, so that the circle starts where the way to it leads.
+        let sweep = TAU - GAP / radius;
+        let sweep = if ccw { sweep } else { -sweep };
+        if let Some(circle) = CircularArc::new(Point2::origin(), radius, start, sweep) {
+            plan.cut(Arc::new(circle), job.part, job.band);
         }
     }
     plan.engagement = job.step;

@@ -13,6 +13,7 @@ mod circles;
 mod moves;
 mod passes;
 mod rings;
+mod slot;
 #[cfg(test)]
 mod tests;
 
@@ -20,7 +21,7 @@ use std::sync::Arc;
 
 use super::Planner;
 use super::levels::levels;
-use super::profile::{guard, part_side, rough_contour};
+use super::profile::{APPROACH, guard, part_side, rough_contour};
 use super::room::Samples;
 use super::state::Ready;
 use crate::arena::Handle;
@@ -28,7 +29,7 @@ use crate::cl::{Effort, Operation, RecordKind, Wall};
 use crate::diag::Diagnostic;
 use crate::diag::codes::planning::{NO_ROUGHING_PLAN, ROUGHING_FIGURES, STOCK_NOT_ROUND, STOCK_TOO_SMALL};
 use crate::geom::curve::{CurveRef, Frenet, Offset, Reversed};
-use crate::geom::{Point3, Side, Vec2};
+use crate::geom::{Point2, Point3, Side, Vec2};
 use crate::ir::{Band, Flank, Origin, RoughCam, StockShape};
 use moves::{Move, Plan};
 
@@ -102,12 +103,48 @@ impl Planner<'_> {
         let ready = self.ready(&what, Some(rough.tool), origin);
         let reaches = self.check_cutter(rough.tool, rough.depth, origin);
         let part = part_side(rough.cut, ready.is_none_or(|r| r.clockwise));
+        if self.program.cams[rough.cam].cam.definition().groove {
+            return self.rough_groove(rough, part, (&what, ready.filter(|_| reaches)), origin);
+        }
         let job = self.job(rough, part, origin);
         let (Some(ready), true, Some(job)) = (ready, reaches, job) else { return };
         match best_plan(&job) {
-            Some(plan) => self.emit_plan(rough, &job, &plan, (&what, ready), origin),
+            Some(plan) => {
+                let least = (job.area(), job.area() / job.step);
+                self.emit_plan(rough, job.blank, (&plan, least), (&what, ready), origin);
+            }
             None => self.no_plan(rough, origin),
         }
+    }
+
+    /// A groove is slotted; its blank only has to be there.
+    fn rough_groove(
+        &mut self,
+        rough: &RoughCam,
+        part: Side,
+        (name, ready): (&str, Option<Ready>),
+        origin: Handle<Origin>,
+    ) {
+        let cutter = self.program.tools[rough.tool].diameter / 2.0;
+        let flanks = [Flank::Inner, Flank::Outer];
+        let fits = flanks.iter().all(|f| self.cutter_fits_cam(rough.cam, *f, (cutter, rough.leave), origin));
+        let blank = self.blank(rough, origin);
+        let (Some(ready), true, Some(blank)) = (ready, fits, blank) else { return };
+        let count = levels(rough.depth, rough.axial_step).len() as f64;
+        let groove = slot::Groove {
+            cam: &self.program.cams[rough.cam].cam,
+            cutter,
+            leave: rough.leave,
+            step: rough.radial_step,
+            drop: rough.depth / count,
+            part,
+            band: rough.band,
+        };
+        let plan = slot::plan(&groove);
+        let width = 2.0 * (groove.cam.definition().follower.roller() - rough.leave);
+        let area = groove.length() * width;
+        let least = (area, area / (2.0 * cutter));
+        self.emit_plan(rough, blank, (&plan, least), (name, ready), origin);
     }
 
     fn no_plan(&mut self, rough: &RoughCam, origin: Handle<Origin>) {
@@ -189,15 +226,15 @@ impl Planner<'_> {
     fn emit_plan(
         &mut self,
         rough: &RoughCam,
-        job: &Job,
-        plan: &Plan,
+        blank: f64,
+        (plan, least): (&Plan, (f64, f64)),
         (name, ready): (&str, Ready),
         origin: Handle<Origin>,
     ) {
         let heights = levels(rough.depth, rough.axial_step);
-        let effort = effort(job, plan, heights.len(), ready);
-        let mut guard = guard(vec![self.wall(rough)], rough.depth);
-        guard.blank_radius = Some(job.blank);
+        let effort = effort(plan, least, heights.len(), ready);
+        let mut guard = guard(self.walls(rough), rough.depth);
+        guard.blank_radius = Some(blank);
         let operation = Operation {
             name: name.to_owned(),
             kind: "ROUGH",
@@ -207,22 +244,25 @@ impl Planner<'_> {
             effort: Some(effort),
         };
         let index = self.begin(operation, origin);
+        let mut above = 0.0;
         for z in heights {
             for step in &plan.moves {
-                self.emit_move(step, z, rough.clearance, origin);
+                self.emit_move(step, (above, z), rough.clearance, origin);
             }
+            above = z;
         }
         self.emit(RecordKind::EndOperation(index), origin);
         self.note_effort(name, &effort, origin);
     }
 
-    fn wall(&self, rough: &RoughCam) -> Wall {
+    fn walls(&self, rough: &RoughCam) -> Vec<Wall> {
         let cam = &self.program.cams[rough.cam].cam;
         let radius = self.program.tools[rough.tool].diameter / 2.0;
-        Wall { centre: cam.centre(Flank::Inner, radius), part: cam.material(Flank::Inner) }
+        let wall = |flank: &Flank| Wall { centre: cam.centre(*flank, radius), part: cam.material(*flank) };
+        cam.definition().flanks().iter().map(wall).collect()
     }
 
-    fn emit_move(&mut self, step: &Move, z: f64, clearance: f64, origin: Handle<Origin>) {
+    fn emit_move(&mut self, step: &Move, (above, z): (f64, f64), clearance: f64, origin: Handle<Origin>) {
         match step {
             Move::Down(p) => {
                 self.rapid(Point3::new(p.x, p.y, clearance), origin);
@@ -232,11 +272,28 @@ impl Planner<'_> {
                 self.linear(Point3::new(p.x, p.y, z), origin);
                 self.rapid(Point3::new(p.x, p.y, clearance), origin);
             }
+            Move::Ramp(points) => self.ramp(points, (above, z), clearance, origin),
             Move::Link(p) => self.linear(Point3::new(p.x, p.y, z), origin),
             Move::Cut { curve, part, band } => {
                 let contour = rough_contour(curve.clone(), *part, *band, z, clearance);
                 self.emit(RecordKind::Contour(Box::new(contour)), origin);
             }
+        }
+    }
+
+    fn ramp(
+        &mut self,
+        points: &[(Point2, f64)],
+        (above, z): (f64, f64),
+        clearance: f64,
+        origin: Handle<Origin>,
+    ) {
+        let Some((first, _)) = points.first() else { return };
+        self.rapid(Point3::new(first.x, first.y, clearance), origin);
+        self.rapid(Point3::new(first.x, first.y, clearance.min(APPROACH)), origin);
+        self.linear(Point3::new(first.x, first.y, above), origin);
+        for (p, share) in points.iter().skip(usize::from(points.len() > 1)) {
+            self.linear(Point3::new(p.x, p.y, above + (z - above) * share), origin);
         }
     }
 
@@ -266,11 +323,11 @@ fn contour_band(job: &Job, loose: Band) -> Band {
     if job.leave > 0.0 { Band { into: loose.into.min(0.5 * job.leave), out: loose.out } } else { job.band }
 }
 
-fn effort(job: &Job, plan: &Plan, count: usize, ready: Ready) -> Effort {
+/// `least`: area of a level, mm², and the least path for it, mm.
+fn effort(plan: &Plan, (area, least): (f64, f64), count: usize, ready: Ready) -> Effort {
     let levels = u32::try_from(count).unwrap_or(u32::MAX);
     let times = f64::from(levels);
     let (engaged, links) = (plan.engaged * times, plan.links * times);
-    let area = job.area();
     Effort {
         engaged,
         links,
@@ -278,7 +335,7 @@ fn effort(job: &Job, plan: &Plan, count: usize, ready: Ready) -> Effort {
         area,
         engagement: plan.engagement,
         levels,
-        bound: area / job.step * times,
+        bound: least * times,
     }
 }
 

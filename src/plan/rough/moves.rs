@@ -11,6 +11,8 @@ use crate::ir::Band;
 pub(in crate::plan) enum Move {
     /// From above down to the level at a place clear of the blank.
     Down(Point2),
+    /// From above onto the level before, and down along these places: each with its share of the way down.
+    Ramp(Vec<(Point2, f64)>),
     /// To this place at feed, then up; clear of part and stock.
     Up(Point2),
     /// Straight at feed.
@@ -51,6 +53,14 @@ impl Plan {
     pub fn down(&mut self, p: Point2) {
         self.position = Some(p);
         self.moves.push(Move::Down(p));
+    }
+    pub fn ramp(&mut self, points: Vec<(Point2, f64)>) {
+        let Some((first, _)) = points.first() else { return };
+        self.position = Some(*first);
+        for (p, _) in &points {
+            self.go(*p);
+        }
+        self.moves.push(Move::Ramp(points));
     }
     pub fn up(&mut self, p: Point2) {
         self.go(p);

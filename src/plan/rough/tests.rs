@@ -158,6 +158,7 @@ fn simulate(job: &Job, plan: &Plan) -> Seen {
                 go(&mut field, at, *p);
                 at = None;
             }
+            Move::Ramp(_) => at = None,
             Move::Link(p) => {
                 go(&mut field, at, *p);
                 at = Some(*p);
