@@ -5,8 +5,9 @@
 //! from the middle of the band is minimised by sequential linear minimax programming ([`optimise`], [`minimax`]),
 //! from joints at equal shares of ∫|k'|^(1/3) ds ([`start`]): the deviation obeys e'' = k_arc - k, so this is best
 //! approximation by C1 quadratic splines with free knots. The count is found by inserting and removing arcs
-//! ([`search`], [`descend`]); the result is rounded to the grid ([`round`]) and certified there ([`certify`]).
+//! ([`search`], [`descend`]), with the proven [`bound`] beside it; the result is rounded to the grid ([`round`]) and certified there ([`certify`]).
 
+mod bound;
 mod certify;
 mod chain;
 mod descend;
@@ -62,7 +63,9 @@ pub fn arcs(tube: &Tube<'_>, grid: &Grid, exact_spans: bool, start: Option<f64>)
         let ends = (!stretch.closed).then(|| [vertices[i], vertices[(i + 1) % vertices.len()]]);
         fits.push(fit_stretch(tube, grid, stretch, ends, exact_spans, start)?);
     }
-    Ok(joined(fits))
+    let mut fit = joined(fits);
+    fit.lower_bound = bound::fewest(tube, &list);
+    Ok(fit)
 }
 
 fn joined(fits: Vec<Rounded>) -> Fit {

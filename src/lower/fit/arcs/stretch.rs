@@ -29,6 +29,8 @@ pub(in crate::lower::fit) struct Sample {
     pub k: f64,
     /// Arc length per parameter, mm.
     pub speed: f64,
+    /// Index of the curve's span it was taken in.
+    pub span: usize,
 }
 
 /// A smooth span of the curve as part of a stretch.
@@ -97,7 +99,7 @@ impl<'a> Stretch<'a> {
     /// Frenet data at arc length `s`, `speed` being mm per mm of `s` (about 1).
     pub fn at(&self, s: f64) -> Frenet {
         let (u, du) = self.parameter(s);
-        let f = self.curve.at(u);
+        let f = self.curve.at_in(self.samples[self.interval(self.wrap(s))].span, u);
         Frenet { speed: f.speed * du, ..f }
     }
 
@@ -208,7 +210,7 @@ impl Sampler<'_> {
         if bad || f.speed <= 0.0 || !f.speed.is_finite() {
             return Err(FitError::BadCurve { u });
         }
-        Ok(Sample { u, s: 0.0, p: f.p, n: left(f.t), k: f.k, speed: f.speed })
+        Ok(Sample { u, s: 0.0, p: f.p, n: left(f.t), k: f.k, speed: f.speed, span: self.index })
     }
 
     /// Pushes the samples after `a` up to `b`; returns the arc length at `b`.

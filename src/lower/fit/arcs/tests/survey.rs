@@ -142,6 +142,8 @@ pub(in crate::lower::fit) fn check(name: &str, tube: &Tube<'_>, grid: &Grid, fit
     let m = measure(fit, tube.curve, grid);
     assert!(m.left <= tube.left + 1e-7 && m.right <= tube.right + 1e-7, "{name}: {m:?}");
     assert!(m.left <= fit.deviation.0 + 1e-6 && m.right <= fit.deviation.1 + 1e-6, "{name}: {m:?} {fit:?}");
+    let bound = fit.lower_bound.unwrap_or(0) as usize;
+    assert!(bound <= fit.primitives.len(), "{name}: {bound} > {}", fit.primitives.len());
     assert!(m.kink <= 0.05 && m.mismatch <= 0.002 && m.gap == 0, "{name}: {m:?}");
     m
 }
