@@ -1,13 +1,6 @@
-//! Codes of CL files and foreign input.
+//! Codes of CL files and foreign input; none so far.
 
 use crate::diag::Code;
 
-/// unknown CL record.
-pub const UNKNOWN_RECORD: Code = Code {
-    id: "E1001",
-    title: "unknown CL record",
-    page: include_str!("../../../docs/diagnostics/E1001.md"),
-};
-
 /// All codes of this area.
-pub const ALL: &[&Code] = &[&UNKNOWN_RECORD];
+pub const ALL: &[&Code] = &[];
