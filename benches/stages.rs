@@ -69,7 +69,7 @@ fn stages(text: &str) {
         black_box(post::load("linuxcnc", &files, &mut SourceMap::default()).expect("a dialect"));
     });
     let dialect = post::load("linuxcnc", &files, &mut SourceMap::default()).expect("a dialect");
-    let capabilities = dialect.capabilities(None, LengthUnit::Millimetre).expect("capabilities");
+    let capabilities = dialect.capabilities(LengthUnit::Millimetre, None).expect("capabilities");
     let lowered = median(|| {
         black_box(lower::lower(&cl, &capabilities, &mut Sink::default()));
     });
@@ -97,7 +97,7 @@ fn million_blocks() {
     const BLOCKS: u32 = 1_000_000;
     let files = MemoryFiles::default();
     let dialect = post::load("linuxcnc", &files, &mut SourceMap::default()).expect("a dialect");
-    let capabilities = dialect.capabilities(None, LengthUnit::Millimetre).expect("capabilities");
+    let capabilities = dialect.capabilities(LengthUnit::Millimetre, None).expect("capabilities");
     let mut origins = Arena::default();
     let origin = origins.push(Origin { span: Span::new(FileId(0), 0, 0), calls: Vec::new() });
     let block = |kind| Block { kind, origin, piece: None };

@@ -27,6 +27,9 @@ pub struct Fitted {
 /// What the target cannot do and what was done instead.
 type Demotion = (&'static Code, String);
 
+/// A fitted contour with what had to be demoted for it.
+type Fitting = Result<(Arc<Fitted>, Vec<Demotion>), FitError>;
+
 /// Fits all contours of a program, in parallel; one entry a record, `None` where it is no contour. Contours
 /// that ask the same share a fit.
 pub fn fit_all(cl: &Cl, capabilities: &Capabilities, sink: &mut Sink) -> Vec<Option<Arc<Fitted>>> {
@@ -39,7 +42,7 @@ pub fn fit_all(cl: &Cl, capabilities: &Capabilities, sink: &mut Sink) -> Vec<Opt
     let leaders: Vec<usize> = (0..contours.len())
         .map(|i| (0..i).find(|&j| same_task(contours[i].1, contours[j].1)).unwrap_or(i))
         .collect();
-    let results: Vec<Option<Result<(Arc<Fitted>, Vec<Demotion>), FitError>>> = contours
+    let results: Vec<Option<Fitting>> = contours
         .par_iter()
         .enumerate()
         .map(|(i, (_, contour))| (leaders[i] == i).then(|| fit_one(contour, capabilities)))

@@ -53,11 +53,11 @@ fn check_patterns(dialect: &Dialect, errors: &mut Vec<Diagnostic>) {
 
 fn check_item(dialect: &Dialect, item: &str) -> Option<String> {
     match Item::parse(item) {
-        Ok(Item::Word(slot)) if !dialect.spec.words.contains_key(slot.name()) => {
+        Some(Item::Word(slot)) if !dialect.spec.words.contains_key(slot.name()) => {
             Some(format!("the word `{}` is not in [words]", slot.name()))
         }
-        Ok(_) => None,
-        Err(()) => {
+        Some(_) => None,
+        None => {
             let near = did_you_mean(item, pattern::ITEM_NAMES.iter().copied())
                 .map(|n| format!("; did you mean `{n}`?"))
                 .unwrap_or_default();
@@ -73,7 +73,7 @@ fn check_collision(dialect: &Dialect, items: &[String], path: &str, errors: &mut
         if item == "/" {
             seen.clear();
         }
-        let Ok(Item::Word(slot)) = Item::parse(item) else { continue };
+        let Some(Item::Word(slot)) = Item::parse(item) else { continue };
         let Some(word) = dialect.spec.words.get(slot.name()) else { continue };
         if word.prefix.is_empty() {
             continue;

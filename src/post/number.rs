@@ -66,7 +66,7 @@ fn push_fraction(
 ) -> (u64, usize) {
     let mut left = decimals;
     if !style.trailing_zeros {
-        while left > 0 && rest % 10 == 0 {
+        while left > 0 && rest.is_multiple_of(10) {
             rest /= 10;
             left -= 1;
         }

@@ -88,22 +88,20 @@ pub const ITEM_NAMES: &[&str] = &[
 ];
 
 impl Item {
-    /// Reads an item of a post file.
-    ///
-    /// # Errors
-    /// When it is neither a name nor a text that starts with `=`.
-    pub fn parse(text: &str) -> Result<Item, ()> {
+    /// Reads an item of a post file; `None` when it is neither a name nor a text that starts with `=`.
+    #[must_use]
+    pub fn parse(text: &str) -> Option<Item> {
         match text {
-            "motion" => Ok(Item::Motion),
-            "feed-mode" => Ok(Item::FeedMode),
-            "direction" => Ok(Item::Direction),
-            "/" => Ok(Item::NewLine),
+            "motion" => Some(Item::Motion),
+            "feed-mode" => Some(Item::FeedMode),
+            "direction" => Some(Item::Direction),
+            "/" => Some(Item::NewLine),
             _ => match text.strip_prefix('=') {
                 Some(literal) if literal.bytes().all(|b| b.is_ascii_graphic() || b == b' ') => {
-                    Ok(Item::Text(literal.as_bytes().into()))
+                    Some(Item::Text(literal.as_bytes().into()))
                 }
-                Some(_) => Err(()),
-                None => Slot::ALL.into_iter().find(|s| s.name() == text).map(Item::Word).ok_or(()),
+                Some(_) => None,
+                None => Slot::ALL.into_iter().find(|s| s.name() == text).map(Item::Word),
             },
         }
     }

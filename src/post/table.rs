@@ -103,5 +103,5 @@ pub(super) fn word(spec: &Spec, name: &str, modal: bool, unit: LengthUnit) -> Wo
 
 /// Items were checked when the dialect was loaded.
 fn items(pattern: &[String]) -> Box<[Item]> {
-    pattern.iter().filter_map(|item| Item::parse(item).ok()).collect()
+    pattern.iter().filter_map(|item| Item::parse(item)).collect()
 }

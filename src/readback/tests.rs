@@ -180,7 +180,7 @@ fn a_turning_table_makes_spirals() {
     // Half a minute for a quarter turn at 10 to 12 mm.
     let length = moves[3].length();
     assert!(
-        (length - (11.0f64 * PI / 2.0).hypot(2.0)).abs() < 0.01
+        (length - crate::math::hypot(11.0 * PI / 2.0, 2.0)).abs() < 0.01
             && close(moves[3].feed.unwrap(), 2.0 * length)
     );
     // With the table turned by 180 deg, machine +X is the part's -X.

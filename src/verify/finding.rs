@@ -93,10 +93,6 @@ impl Finding {
     pub(super) fn line(&self) -> u32 {
         self.line
     }
-    #[cfg(test)]
-    pub(super) fn code(&self) -> &'static Code {
-        self.code
-    }
 }
 
 /// Complaints of the control, and what the program leaves to its settings.

@@ -15,6 +15,9 @@
 //! taken at what the program allows it (`G64 P Q`) and counts against the band. Grbl and LinuxCNC follow arcs and curves by
 //! chords of their own, with an error set in the machine's settings; that is not part of the program and not counted.
 
+// A value that is not a number must be a finding: comparisons are written so that it fails them.
+#![allow(clippy::neg_cmp_op_on_partial_ord)]
+
 use rayon::prelude::*;
 
 use crate::cl::Cl;

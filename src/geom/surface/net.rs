@@ -74,7 +74,8 @@ impl Net {
         let cubic = |n: usize| n >= 4 && n % 3 == 1;
         let chain = cubic(rows) && cubic(columns);
         let small = |n: usize| (2..=MAX_DEGREE + 1).contains(&n);
-        if !chain && !(small(rows) && small(columns)) {
+        let single = small(rows) && small(columns);
+        if !chain && !single {
             return Err(NetIssue::Size { rows, columns });
         }
         let (count_u, count_v) = if chain { ((rows - 1) / 3, (columns - 1) / 3) } else { (1, 1) };

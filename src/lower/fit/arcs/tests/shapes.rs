@@ -157,7 +157,7 @@ proptest! {
     fn random_curves_are_followed(
         radius in 15.0..80.0_f64,
         sizes in proptest::array::uniform4(0.0..1.0_f64),
-        phases in proptest::array::uniform4(0.0..6.28_f64),
+        phases in proptest::array::uniform4(0.0..crate::math::TAU),
         band in (0.001..0.03_f64, 0.001..0.03_f64),
         step in prop_oneof![Just(0.001), Just(1e-4), Just(0.00254)],
     ) {

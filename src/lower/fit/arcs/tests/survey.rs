@@ -119,7 +119,8 @@ pub(in crate::lower::fit) fn cams() -> Vec<(String, CurveRef)> {
 
 /// Smooth closed curves that are no cams.
 fn harmonics() -> Vec<(String, CurveRef)> {
-    let list: [(&str, &[(f64, f64, f64)]); 5] = [
+    type Harmonics = (&'static str, &'static [(f64, f64, f64)]);
+    let list: [Harmonics; 5] = [
         ("eccentric", &[(0.0, 40.0, 0.0), (1.0, 6.0, 0.3)]),
         ("oval", &[(0.0, 40.0, 0.0), (2.0, 5.0, 0.9)]),
         ("trefoil", &[(0.0, 40.0, 0.0), (3.0, 6.0, 0.1)]),
