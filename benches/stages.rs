@@ -100,7 +100,7 @@ fn million_blocks() {
     let capabilities = dialect.capabilities(LengthUnit::Millimetre, None).expect("capabilities");
     let mut origins = Arena::default();
     let origin = origins.push(Origin { span: Span::new(FileId(0), 0, 0), calls: Vec::new() });
-    let block = |kind| Block { kind, origin, piece: None };
+    let block = |kind| Block { kind, origin, piece: None, record: None };
     let mut blocks = vec![block(BlockKind::Begin)];
     for i in 0..BLOCKS {
         let angle = f64::from(i) * 0.01;

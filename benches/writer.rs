@@ -47,7 +47,7 @@ fn program(dialect: &post::Dialect, origins: &mut Arena<Origin>, kind: Kind) -> 
     let start = Motion::Rapid { to: Position::default(), axes: axes::X | axes::Y | axes::Z };
     let blocks = core::iter::once(start)
         .chain((0..BLOCKS).map(kind))
-        .map(|motion| Block { kind: BlockKind::Motion(motion), origin, piece: None })
+        .map(|motion| Block { kind: BlockKind::Motion(motion), origin, piece: None, record: None })
         .collect();
     TargetProgram {
         title: None,

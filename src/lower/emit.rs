@@ -29,8 +29,10 @@ pub(super) fn program(
     emitter.event(BlockKind::Begin);
     for (index, record) in cl.records.iter().enumerate() {
         emitter.origin = record.origin;
+        emitter.of_record = u32::try_from(index).ok();
         emitter.record(index, record, fitted);
     }
+    emitter.of_record = None;
     emitter.event(BlockKind::End);
     Some(emitter.finish())
 }
@@ -45,6 +47,8 @@ pub(super) struct Emitter<'a> {
     sink: &'a mut Sink,
     tools: Tools,
     origin: Handle<Origin>,
+    /// The record that is being expressed.
+    of_record: Option<u32>,
     pub(super) piece: Option<PieceId>,
     /// Printed positions of X, Y, Z and the rotary axis, where known.
     pub(super) at: [Option<i64>; 4],
@@ -70,6 +74,7 @@ impl<'a> Emitter<'a> {
             sink,
             tools: Tools::of(cl),
             origin,
+            of_record: None,
             piece: None,
             at: [None; 4],
             feed: None,
@@ -101,7 +106,7 @@ impl<'a> Emitter<'a> {
     }
 
     fn event(&mut self, kind: BlockKind) {
-        self.blocks.push(Block { kind, origin: self.origin, piece: None });
+        self.blocks.push(Block { kind, origin: self.origin, piece: None, record: self.of_record });
     }
 
     /// One message a code and statement.
@@ -372,7 +377,12 @@ impl<'a> Emitter<'a> {
     /// Pushes a motion and checks it.
     pub(super) fn push(&mut self, motion: Motion) {
         self.check(&motion);
-        self.blocks.push(Block { kind: BlockKind::Motion(motion), origin: self.origin, piece: self.piece });
+        self.blocks.push(Block {
+            kind: BlockKind::Motion(motion),
+            origin: self.origin,
+            piece: self.piece,
+            record: self.of_record,
+        });
     }
 
     fn check(&mut self, motion: &Motion) {

@@ -225,6 +225,8 @@ pub struct Block {
     pub origin: Handle<Origin>,
     /// The exact piece it is part of, if it cuts along one.
     pub piece: Option<PieceId>,
+    /// Index of the CL record that it expresses; `None` for the program's start and end.
+    pub record: Option<u32>,
 }
 
 /// Position in grid steps: X, Y, Z, rotary.

@@ -56,7 +56,7 @@ impl Sheet {
         self
     }
     pub fn event(mut self, kind: BlockKind) -> Sheet {
-        self.program.blocks.push(Block { kind, origin: self.origin, piece: None });
+        self.program.blocks.push(Block { kind, origin: self.origin, piece: None, record: None });
         self
     }
     pub fn rapid(mut self, x: i64, y: i64, z: i64, moved: u8) -> Sheet {
