@@ -9,7 +9,7 @@ use crate::geom::follower::{ArmSide, Follower};
 use crate::ir::CamEntity;
 use crate::units::{Angle, Dim, show_angle, tidy};
 
-use super::arguments::Matched;
+use super::matched::Matched;
 use super::value::{Entity, FollowerValue, MotionValue, Value};
 use super::{Analyser, limits};
 

@@ -12,7 +12,7 @@ use crate::units::{Angle, show_angle};
 use crate::vocab::Statement;
 
 use super::Analyser;
-use super::arguments::Matched;
+use super::matched::Matched;
 use super::process::{Setting, radians};
 use super::value::{Entity, Value};
 
@@ -152,8 +152,8 @@ impl Analyser<'_> {
         if let Some(number) = self.state.pending_number.take()
             && m.number("number").is_none()
         {
-            let typed = super::arguments::Typed::Number(f64::from(number));
-            m.found.push(super::arguments::Found { name: "number", span: m.word, typed });
+            let typed = super::matched::Typed::Number(f64::from(number));
+            m.found.push(super::matched::Found { name: "number", span: m.word, typed });
         }
         match self.cutter(&m, "CUTTER") {
             Some(tool) => self.load_tool(tool, span),

@@ -9,7 +9,7 @@ use crate::source::Span;
 use crate::syntax::ast::{Command, Expr, Name, Target};
 use crate::vocab::{self, EntityKind, Statement, Usage};
 
-use super::arguments::Matched;
+use super::matched::Matched;
 use super::scope::{Array, Binding, BindingKind, Element};
 use super::value::{Entity, Value};
 use super::{Analyser, End, limits};

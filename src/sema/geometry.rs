@@ -15,7 +15,7 @@ use crate::syntax::ast::BinaryOp;
 use crate::units::{Dim, Quantity};
 
 use super::Analyser;
-use super::arguments::{Matched, Typed};
+use super::matched::{Matched, Typed};
 use super::process::radians;
 use super::value::{CircleValue, Entity, LineValue, Value, Vector};
 

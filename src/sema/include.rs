@@ -7,7 +7,7 @@ use crate::diag::codes::semantics as codes;
 use crate::source::{FileError, FileId, SourceMap, Span};
 use crate::syntax;
 
-use super::arguments::Matched;
+use super::matched::Matched;
 use super::{Analyser, limits};
 
 /// Which files have been read, and which are being read.

@@ -11,7 +11,7 @@ use crate::source::Span;
 use crate::units::{Angle, Dim, Quantity, tidy};
 
 use super::Analyser;
-use super::arguments::{Found, Matched, Typed};
+use super::matched::{Found, Matched, Typed};
 use super::members::segment_kind;
 use super::value::{Entity, MotionSource, MotionValue, SegmentShape, SegmentValue, Value};
 

@@ -8,7 +8,7 @@ use crate::source::Span;
 use crate::units::Dim;
 
 use super::Analyser;
-use super::arguments::{Matched, Typed};
+use super::matched::{Matched, Typed};
 use super::process::Setting;
 
 impl Analyser<'_> {

@@ -14,7 +14,7 @@ use crate::syntax::ast::Command;
 use crate::vocab::{EntityKind, Statement};
 
 use super::Analyser;
-use super::arguments::{Matched, Typed};
+use super::matched::{Matched, Typed};
 use super::process::Setting;
 use super::scope::{Binding, BindingKind};
 use super::value::{Entity, Value};

@@ -7,8 +7,8 @@ use crate::syntax;
 use crate::syntax::ast::{ExprKind, Name, StatementKind};
 use crate::units::Quantity;
 
-use super::arguments::{Matched, Typed};
 use super::arithmetic::article;
+use super::matched::{Matched, Typed};
 use super::scope::{Binding, BindingKind};
 use super::value::Value;
 use super::{Analyser, Options};

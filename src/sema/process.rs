@@ -12,7 +12,7 @@ use crate::syntax::ast::{ArgKind, Command, Expr, ExprKind, Name};
 use crate::units::{Dim, LengthUnit, Quantity, number, tidy};
 
 use super::Analyser;
-use super::arguments::{Matched, Typed};
+use super::matched::{Matched, Typed};
 use super::scope::{Array, Binding, BindingKind};
 use super::value::{Entity, Value};
 

@@ -5,8 +5,8 @@ use crate::diag::codes::cam as codes;
 use crate::source::{FileId, Span};
 use crate::units::{Dim, Quantity, Unit, parse_unit};
 
-use super::arguments::Matched;
 use super::include::unreadable_file;
+use super::matched::Matched;
 use super::value::MotionSource;
 use super::{Analyser, limits};
 

@@ -81,6 +81,14 @@ const DEPTH: Choices = with(
     "the stock's height",
 );
 
+const STEP: Choices = with(
+    "step",
+    &[word("STEP", "largest axial step")],
+    &[value("step", POSITIVE, "length")],
+    false,
+    "the depth in one pass",
+);
+
 const ENTRY: Choices = with(
     "entry",
     &[word("ENTRY", "how the contour is entered and left")],
@@ -128,13 +136,7 @@ const PROFIL: &[Form] = &[form(
         ),
         CUT,
         DEPTH,
-        with(
-            "step",
-            &[word("STEP", "largest axial step")],
-            &[value("step", POSITIVE, "length")],
-            false,
-            "the depth in one pass",
-        ),
+        STEP,
         ENTRY,
         with(
             "dwells",
