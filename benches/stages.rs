@@ -117,6 +117,7 @@ fn million_blocks() {
         tools: Vec::new(),
         pieces: Vec::new(),
         nurbs: Vec::new(),
+        cycles: Vec::new(),
         blocks,
     };
     let write = median(|| {

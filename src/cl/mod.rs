@@ -5,19 +5,24 @@
 //!   the exact cutter-centre curve and the band it may be left in; `lower` chooses its vertices.
 //! - Records are in execution order. The state before the first record is: no tool, spindle and coolant off,
 //!   position unknown, no feed.
-//! - Before a record that cuts (`Linear`, `Contour`), a tool, a spindle command and a feed have been given;
+//! - A [`Circle`] starts where the record before it left the cutter, which is known and lies on it.
+//! - Between `BeginCycle` and `EndCycle` every point is a `Hole`; other motion ends the cycle first.
+//! - Before a record that cuts (`Linear`, `Circle`, `Contour`, `Hole`), a tool, a spindle command and a feed have been given;
 //!   the planner reports where they are missing.
 //! - Every record knows its [`Origin`]; records between `BeginOperation` and `EndOperation` belong to that
 //!   operation.
 
 use crate::arena::{Arena, Handle};
 use crate::geom::curve::CurveRef;
-use crate::geom::{Point3, Side};
+use crate::geom::{Point3, Side, Vec3};
 use crate::ir::{Band, Coolant, Feed, Interpolation, Origin, Spindle, Tool};
 use crate::units::LengthUnit;
 
+pub mod cycle;
 pub mod lead;
 pub mod print;
+
+pub use cycle::{Cycle, CycleKind, RetractTo};
 
 /// Cutter location data of one program.
 #[derive(Debug, Clone, Default)]
@@ -136,8 +141,32 @@ pub enum RecordKind {
     Rapid(Point3),
     /// Straight at feed.
     Linear(Point3),
+    /// Along an arc or a helix at feed, from where the cutter is.
+    Circle(Box<Circle>),
     /// Along an exact curve at feed.
     Contour(Box<Contour>),
+    /// A drilling cycle starts: every [`RecordKind::Hole`] until the end is made by it. The height of the cutter
+    /// here is the initial level.
+    BeginCycle(Box<Cycle>),
+    /// A hole: its point on the surface that depth and clearance count from.
+    Hole(Point3),
+    /// The cycle ends.
+    EndCycle,
+}
+
+/// An arc or a helix from where the cutter is, by the right-hand rule about its axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Circle {
+    /// End.
+    pub to: Point3,
+    /// A point of the axis.
+    pub centre: Point3,
+    /// Unit vector along the axis; the turn is counter-clockwise seen against it.
+    pub axis: Vec3,
+    /// Full turns beyond the sweep (of more than 0 and at most a full turn) that the end points ask for.
+    pub turns: u32,
+    /// How far the path may leave the exact curve, mm.
+    pub tolerance: f64,
 }
 
 /// A cut along an exact planar curve in the XY plane, at one or several heights.

@@ -13,7 +13,7 @@
 use core::fmt::Write as _;
 
 use super::lead::{self, LeadPath};
-use super::{Cl, Contour, Effort, Lead, Operation, Record, RecordKind};
+use super::{Circle, Cl, Contour, Cycle, CycleKind, Effort, Lead, Operation, Record, RecordKind, RetractTo};
 use crate::geom::curve::{PlanarCurve, Shape};
 use crate::geom::{Point2, Point3, Side};
 use crate::ir::{Coolant, Feed, Spindle, Tool};
@@ -85,7 +85,11 @@ impl Printer<'_> {
             RecordKind::From(p) => self.move_to("FROM", *p),
             RecordKind::Rapid(p) => self.rapid(*p),
             RecordKind::Linear(p) => self.move_to("GOTO", *p),
+            RecordKind::Circle(circle) => self.arc(circle),
             RecordKind::Contour(contour) => self.contour(contour),
+            RecordKind::BeginCycle(cycle) => self.cycle(cycle),
+            RecordKind::Hole(p) => self.move_to("GOTO", *p),
+            RecordKind::EndCycle => self.line(format_args!("CYCLE/ OFF")),
         }
     }
 
@@ -136,14 +140,57 @@ impl Printer<'_> {
     }
 
     fn feed(&mut self, feed: Feed) {
+        let (value, word) = self.feed_words(feed);
+        self.line(format_args!("FEDRAT/ {value}, {word}"));
+    }
+
+    fn feed_words(&self, feed: Feed) -> (String, &'static str) {
         let (value, mm, inch) = match feed {
             Feed::PerMinute(v) => (v, "MMPM", "IPM"),
             Feed::PerRevolution(v) => (v, "PERREV", "PERREV"),
             Feed::PerTooth(v) => (v, "PERTOO", "PERTOO"),
         };
         let word = if self.cl.units == LengthUnit::Inch { inch } else { mm };
-        let value = self.length(value);
-        self.line(format_args!("FEDRAT/ {value}, {word}"));
+        (self.length(value), word)
+    }
+
+    /// An arc or helix: centre, axis, radius; `TIMES, n` for n - 1 full turns more; then its end.
+    fn arc(&mut self, circle: &Circle) {
+        let (x, y, z) =
+            (self.length(circle.centre.x), self.length(circle.centre.y), self.length(circle.centre.z));
+        let (i, j, k) = (number(circle.axis.x), number(circle.axis.y), number(circle.axis.z));
+        let spoke = circle.to - circle.centre;
+        let radius = self.length((spoke - circle.axis * spoke.dot(&circle.axis)).norm());
+        let times = if circle.turns > 0 { format!(", TIMES, {}", circle.turns + 1) } else { String::new() };
+        self.line(format_args!("CIRCLE/ {x}, {y}, {z}, {i}, {j}, {k}, {radius}{times}"));
+        self.move_to("GOTO", circle.to);
+    }
+
+    fn cycle(&mut self, cycle: &Cycle) {
+        let mut text = format!("CYCLE/ {}, FEDTO, {}", cycle_word(cycle.kind), self.length(cycle.depth));
+        if let Some(peck) = cycle.peck {
+            let _ = write!(text, ", STEP, {}", self.length(peck));
+        }
+        match cycle.kind {
+            CycleKind::Tap { pitch, left } => {
+                let hand = if left { "CCLW" } else { "CLW" };
+                let _ = write!(text, ", PITCH, {}, {hand}", self.length(pitch));
+            }
+            CycleKind::BoreOrient { shift } => _ = write!(text, ", ORIENT, {}", self.length(shift)),
+            _ => {}
+        }
+        if !matches!(cycle.kind, CycleKind::Tap { .. }) {
+            let (value, word) = self.feed_words(cycle.feed);
+            let _ = write!(text, ", {word}, {value}");
+        }
+        let _ = write!(text, ", CLEAR, {}", self.length(cycle.clearance));
+        if cycle.retract == RetractTo::Initial {
+            text.push_str(", RETURN, ON");
+        }
+        if let Some(dwell) = cycle.dwell {
+            let _ = write!(text, ", DWELL, {}", number(dwell));
+        }
+        self.line(format_args!("{text}"));
     }
 
     /// A length (or a feed) in the program's unit.
@@ -301,6 +348,18 @@ fn interpolation_word(contour: &Contour) -> &'static str {
         RTheta => "RTHETA",
         Nurbs => "NURBS",
         Auto => "AUTO",
+    }
+}
+
+fn cycle_word(kind: CycleKind) -> &'static str {
+    match kind {
+        CycleKind::Drill => "DRILL",
+        CycleKind::Dwell => "FACE",
+        CycleKind::Deep => "DEEP",
+        CycleKind::ChipBreak => "BRKCHP",
+        CycleKind::Tap { .. } => "TAP",
+        CycleKind::Bore | CycleKind::BoreDwell => "REAM",
+        CycleKind::BoreStop | CycleKind::BoreOrient { .. } => "BORE",
     }
 }
 

@@ -38,6 +38,20 @@ impl GridArc {
         let (a, b) = self.spokes(scale);
         (hypot(a[0], a[1]), hypot(b[0], b[1]))
     }
+    /// Two halves of a full circle.
+    pub fn halves(&self, scale: i64) -> [GridArc; 2] {
+        // The point opposite to the start, as exactly as centre steps allow.
+        let far = self.centre.map(|c| {
+            let twice = 2 * c;
+            (twice as f64 / scale as f64).round() as i64
+        });
+        let middle = [self.start[0] + far[0], self.start[1] + far[1]];
+        let back = [self.centre[0] - far[0] * scale, self.centre[1] - far[1] * scale];
+        [
+            GridArc { to: middle, ..*self },
+            GridArc { start: middle, to: self.start, centre: back, clockwise: self.clockwise },
+        ]
+    }
     /// Sweep, 0 < sweep <= 2π, in its own sense.
     pub fn sweep(&self, scale: i64) -> f64 {
         if self.start == self.to {

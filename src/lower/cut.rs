@@ -10,7 +10,7 @@ use crate::cl::{Contour, Lead};
 use crate::diag::codes;
 use crate::geom::Vec2;
 use crate::ir::Interpolation;
-use crate::target::{FeedWord, Motion, Nurbs, Piece, PieceId, Position, axes};
+use crate::target::{FeedWord, Motion, Nurbs, Piece, PieceId, Plane, Position, axes};
 
 impl Emitter<'_> {
     /// All levels of a contour.
@@ -165,7 +165,7 @@ impl Emitter<'_> {
             Legal::Arc(GridArc { to: [x, y], centre, clockwise, .. }) => {
                 let to = Position { x, y, ..from };
                 self.arrive(to);
-                self.push(Motion::Arc { to, centre, clockwise, feed });
+                self.push(Motion::Arc { to, plane: Plane::Xy, centre, clockwise, feed });
             }
         }
     }

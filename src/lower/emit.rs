@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::contour::Fitted;
+use super::cycle::Active;
 use super::feed::{self, FeedTrouble};
 use super::place::at_origin;
 use super::rotary;
@@ -14,7 +15,8 @@ use crate::geom::Point3;
 use crate::ir::{Band, Coolant, Feed, Origin, Spindle};
 use crate::post::number;
 use crate::target::{
-    Block, BlockKind, Capabilities, FeedWord, Motion, Nurbs, Piece, PieceId, Position, TargetProgram, axes,
+    Block, BlockKind, Capabilities, Cycle, FeedWord, Motion, Nurbs, Piece, PieceId, Position, TargetProgram,
+    axes,
 };
 
 /// Emits all records. `fitted` is what [`super::contour::fit_all`] gave.
@@ -59,6 +61,13 @@ pub(super) struct Emitter<'a> {
     pub(super) blocks: Vec<Block>,
     pub(super) pieces: Vec<Piece>,
     pub(super) nurbs: Vec<Nurbs>,
+    pub(super) cycles: Vec<Cycle>,
+    /// The drilling cycle in force.
+    pub(super) cycle: Option<Active>,
+    /// Where the CL data say the cutter is, before rounding.
+    pub(super) exact: Option<Point3>,
+    /// The spindle as last switched on.
+    pub(super) spinning: Option<Spindle>,
 }
 
 impl<'a> Emitter<'a> {
@@ -84,6 +93,10 @@ impl<'a> Emitter<'a> {
             blocks: Vec::new(),
             pieces: Vec::new(),
             nurbs: Vec::new(),
+            cycles: Vec::new(),
+            cycle: None,
+            exact: None,
+            spinning: None,
         };
         emitter.forget();
         emitter
@@ -96,6 +109,7 @@ impl<'a> Emitter<'a> {
             tools: self.tools.list,
             pieces: self.pieces,
             nurbs: self.nurbs,
+            cycles: self.cycles,
             blocks: self.blocks,
         }
     }
@@ -105,7 +119,7 @@ impl<'a> Emitter<'a> {
         self.at = [None, None, None, self.capabilities.rotary.is_none().then_some(0)];
     }
 
-    fn event(&mut self, kind: BlockKind) {
+    pub(super) fn event(&mut self, kind: BlockKind) {
         self.blocks.push(Block { kind, origin: self.origin, piece: None, record: self.of_record });
     }
 
@@ -129,6 +143,9 @@ impl<'a> Emitter<'a> {
     }
 
     fn record(&mut self, index: usize, record: &Record, fitted: &[Option<Arc<Fitted>>]) {
+        if !matches!(record.kind, RecordKind::Hole(_) | RecordKind::Feed(_)) {
+            self.close_cycle();
+        }
         match &record.kind {
             RecordKind::BeginOperation(operation) => self.begin_operation(*operation),
             RecordKind::EndOperation(_) => {}
@@ -145,14 +162,23 @@ impl<'a> Emitter<'a> {
             RecordKind::Rapid(point) => {
                 let end = self.aim(index, *point, fitted);
                 self.rapid_record(end);
+                self.exact = Some(*point);
             }
             RecordKind::Linear(point) => {
                 let end = self.aim(index, *point, fitted);
                 self.linear_record(end);
+                self.exact = Some(*point);
             }
+            RecordKind::Circle(circle) => self.circle(circle),
+            RecordKind::BeginCycle(cycle) => self.begin_cycle(cycle),
+            RecordKind::Hole(point) => self.hole(*point),
+            RecordKind::EndCycle => self.end_cycle(),
             RecordKind::Contour(contour) => {
                 if let Some(Some(fitted)) = fitted.get(index) {
                     self.contour(contour, fitted);
+                    let step = self.capabilities.grid.linear_step();
+                    let [x, y, z, _] = self.at.map(|v| v.map(|v| v as f64 * step));
+                    self.exact = x.zip(y).zip(z).map(|((x, y), z)| Point3::new(x, y, z));
                 }
             }
         }
@@ -171,10 +197,14 @@ impl<'a> Emitter<'a> {
         let index = self.tools.index(tool);
         self.event(BlockKind::ToolChange(index));
         self.forget();
+        self.exact = None;
         self.rpm = 0.0;
     }
 
     fn spindle(&mut self, spindle: Spindle) {
+        if matches!(spindle, Spindle::On { .. }) {
+            self.spinning = Some(spindle);
+        }
         self.rpm = match spindle {
             Spindle::Off => 0.0,
             Spindle::On { rpm, .. } => rpm,
@@ -238,10 +268,11 @@ impl<'a> Emitter<'a> {
     fn from(&mut self, point: Point3) {
         let [x, y, z] = self.round(point);
         self.at = [Some(x), Some(y), Some(z), self.at[3]];
+        self.exact = Some(point);
     }
 
     /// A point in linear steps.
-    fn round(&mut self, point: Point3) -> [i64; 3] {
+    pub(super) fn round(&mut self, point: Point3) -> [i64; 3] {
         [point.x, point.y, point.z].map(|mm| self.linear(mm))
     }
 
@@ -393,6 +424,26 @@ impl<'a> Emitter<'a> {
             }
             Motion::Nurbs { .. } => return,
         };
+        self.check_position(to, moved);
+        let ranges = self.capabilities.ranges;
+        if let Motion::Arc { centre, .. } = motion
+            && centre.iter().any(|c| c.abs() > ranges.centre)
+        {
+            self.complain(
+                &codes::lowering::TOO_LARGE,
+                "an arc centre is beyond the range of its words".into(),
+            );
+        }
+    }
+
+    /// Positions that a cycle reaches.
+    pub(super) fn check_place(&mut self, places: &[Position]) {
+        for place in places {
+            self.check_position(*place, axes::X | axes::Y | axes::Z | axes::ROTARY);
+        }
+    }
+
+    fn check_position(&mut self, to: Position, moved: u8) {
         let ranges = self.capabilities.ranges;
         let values = [to.x, to.y, to.z, to.r];
         for (i, value) in values.into_iter().enumerate().filter(|(i, _)| moved & (1 << i) != 0) {
@@ -402,14 +453,6 @@ impl<'a> Emitter<'a> {
             } else if let Some(Some(range)) = self.capabilities.travel.get(i) {
                 self.check_travel(i, value, *range);
             }
-        }
-        if let Motion::Arc { centre, .. } = motion
-            && centre.iter().any(|c| c.abs() > ranges.centre)
-        {
-            self.complain(
-                &codes::lowering::TOO_LARGE,
-                "an arc centre is beyond the range of its words".into(),
-            );
         }
     }
 

@@ -5,8 +5,8 @@
 
 use crate::cl::Lead;
 use crate::geom::{Side, Vec2, left};
-use crate::target::Motion;
 use crate::target::{FeedWord, Position};
+use crate::target::{Motion, Plane};
 
 /// A lead: the point it goes to (or comes from), and how.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -74,9 +74,13 @@ fn spoke(tangent: Vec2, part: Side, radius: f64) -> Option<([i64; 2], bool)> {
 /// The motion along a lead.
 pub(super) fn motion(lead: &LeadPath, to: Position, feed: FeedWord, centre_per_linear: i64) -> Motion {
     match lead.arc {
-        Some((centre, clockwise)) => {
-            Motion::Arc { to, centre: centre.map(|v| v * centre_per_linear), clockwise, feed }
-        }
+        Some((centre, clockwise)) => Motion::Arc {
+            to,
+            plane: Plane::Xy,
+            centre: centre.map(|v| v * centre_per_linear),
+            clockwise,
+            feed,
+        },
         None => Motion::Line { to, feed },
     }
 }

@@ -12,8 +12,10 @@
 //! - A machine with a rotary axis is at a multiple of a full turn whenever a move is Cartesian.
 
 mod arc;
+pub(crate) mod circle;
 pub mod contour;
 mod cut;
+mod cycle;
 mod emit;
 mod feed;
 pub mod fit;

@@ -2,7 +2,7 @@
 
 use crate::geom::{Point2, Vec2};
 use crate::math::{DEG, TAU, atan2, hypot, sin_cos};
-use crate::target::{BlockKind, Motion, Nurbs, PieceId, Position, TargetProgram};
+use crate::target::{BlockKind, Motion, Nurbs, PieceId, Plane, Position, TargetProgram};
 
 /// What a block does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -110,6 +110,8 @@ fn turned(program: &TargetProgram, x: f64, y: f64, degrees: f64) -> Point2 {
 fn path(program: &TargetProgram, from: Position, motion: &Motion, detail: Detail) -> Vec<Point2> {
     match motion {
         Motion::Rapid { to, .. } | Motion::Line { to, .. } => straight(program, from, *to, detail),
+        // Seen from above an arc in another plane is a straight line or there and back on one.
+        Motion::Arc { to, plane: Plane::Zx | Plane::Yz, .. } => straight(program, from, *to, detail),
         Motion::Arc { to, centre, clockwise, .. } => arc(program, (from, *to), *centre, *clockwise, detail),
         Motion::Nurbs { curve, .. } => {
             nurbs(program, *curve).map_or_else(Vec::new, |n| spline(program, n, detail))

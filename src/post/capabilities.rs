@@ -1,12 +1,12 @@
 //! What a dialect tells lowering.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::dialect::{Dialect, FullCircleWords};
 use crate::diag::{Diagnostic, codes, did_you_mean};
 use crate::ir::{Machine, Rotary};
 use crate::target::{
-    Capabilities, FullCircle, Grid, NurbsForm, PathTolerance, Ranges, RotaryAxis, RotaryFeed,
+    Capabilities, FullCircle, Grid, NurbsForm, PathTolerance, Plane, Ranges, RotaryAxis, RotaryFeed,
 };
 use crate::units::{Angle, LengthUnit};
 
@@ -32,6 +32,8 @@ impl Dialect {
             name: self.name.clone(),
             grid: self.grid(unit),
             arcs: spec.arcs.enabled,
+            planes: spec.arcs.enabled.then_some(Plane::Xy).into_iter().collect(),
+            cycles: BTreeSet::new(),
             max_sweep: Angle::degrees(spec.arcs.max_sweep).rad(),
             full_circle: match spec.arcs.full_circle {
                 FullCircleWords::Split => FullCircle::Split(spec.arcs.split),

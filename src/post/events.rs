@@ -142,7 +142,8 @@ impl<'a> Events<'a> {
             BlockKind::Insert(text) => self.insert(text),
             BlockKind::PathTolerance(tolerance) => self.path_tolerance(*tolerance),
             BlockKind::BeginOperation(name) => self.operation(name),
-            BlockKind::Motion(_) => {}
+            // No dialect lists cycles yet, so none are kept.
+            BlockKind::Motion(_) | BlockKind::BeginCycle(_) | BlockKind::Hole(_) | BlockKind::EndCycle => {}
         }
     }
 

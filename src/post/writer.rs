@@ -212,7 +212,7 @@ impl<'a> Writer<'a> {
                 feed: Some(split_feed(feed)),
                 circle: false,
             },
-            Motion::Arc { to, centre, clockwise, feed } => MotionBlock {
+            Motion::Arc { to, centre, clockwise, feed, .. } => MotionBlock {
                 pattern: ARC_PATTERN,
                 code: if clockwise { ARC_CW } else { ARC_CCW },
                 to,

@@ -7,7 +7,10 @@
 //!   check known, on the integers.
 //! - Positions are absolute; modality, word order and spelling are the writer's.
 
+use std::collections::BTreeSet;
+
 use crate::arena::Handle;
+use crate::cl::cycle::CycleName;
 use crate::geom::Side;
 use crate::geom::curve::CurveRef;
 use crate::ir::{Band, Coolant, Origin, Spindle, Tool};
@@ -90,6 +93,10 @@ pub struct Capabilities {
     pub grid: Grid,
     /// Circular interpolation in the XY plane.
     pub arcs: bool,
+    /// Planes of circular interpolation; XY is among them when there are arcs.
+    pub planes: BTreeSet<Plane>,
+    /// Drilling cycles that are kept; others become moves.
+    pub cycles: BTreeSet<CycleName>,
     /// Largest sweep of one arc block, radians (2π when a full circle is fine).
     pub max_sweep: f64,
     /// Full circles.
@@ -212,6 +219,8 @@ pub struct TargetProgram {
     pub pieces: Vec<Piece>,
     /// NURBS curves that [`Motion::Nurbs`] refers to.
     pub nurbs: Vec<Nurbs>,
+    /// Drilling cycles that [`BlockKind::BeginCycle`] refers to.
+    pub cycles: Vec<Cycle>,
     /// Blocks in order.
     pub blocks: Vec<Block>,
 }
@@ -270,13 +279,15 @@ pub enum Motion {
         /// Feed.
         feed: FeedWord,
     },
-    /// Arc in the XY plane, helix when Z moves.
+    /// Arc in a plane, helix when the third axis moves.
     Arc {
         /// End.
         to: Position,
-        /// Centre minus start, in steps of the centre words.
+        /// The plane.
+        plane: Plane,
+        /// Centre minus start along the plane's first and second axis, in steps of the centre words.
         centre: [i64; 2],
-        /// Clockwise (G2).
+        /// Clockwise (G2), seen against the plane's third axis.
         clockwise: bool,
         /// Feed.
         feed: FeedWord,
@@ -288,6 +299,29 @@ pub enum Motion {
         /// Feed.
         feed: FeedWord,
     },
+}
+
+/// The plane of an arc.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Plane {
+    /// First axis X, second Y (G17).
+    Xy,
+    /// First axis Z, second X (G18).
+    Zx,
+    /// First axis Y, second Z (G19).
+    Yz,
+}
+
+impl Plane {
+    /// First, second and third axis: 0 X, 1 Y, 2 Z; right-handed.
+    #[must_use]
+    pub fn axes(self) -> [usize; 3] {
+        match self {
+            Plane::Xy => [0, 1, 2],
+            Plane::Zx => [2, 0, 1],
+            Plane::Yz => [1, 2, 0],
+        }
+    }
 }
 
 /// Bits of [`Motion::Rapid::axes`].
@@ -342,4 +376,46 @@ pub enum BlockKind {
     BeginOperation(String),
     /// A motion.
     Motion(Motion),
+    /// A drilling cycle starts: index into [`TargetProgram::cycles`]. The tool is at the cycle's initial level,
+    /// which is not below its clearance level. Nothing is drilled by this block itself.
+    BeginCycle(u32),
+    /// A hole of the cycle: X, Y, and in Z the surface that depth and clearance count from, the same for all
+    /// holes of the cycle.
+    Hole(Position),
+    /// The cycle ends, with the tool at the level it retracts to.
+    EndCycle,
+}
+
+/// A drilling cycle in grid steps; all levels are absolute.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cycle {
+    /// How the hole is made; pitch and shift in mm.
+    pub kind: crate::cl::CycleKind,
+    /// Surface of the holes, Z steps.
+    pub surface: i64,
+    /// Bottom, Z steps.
+    pub bottom: i64,
+    /// Clearance level (R), Z steps.
+    pub clearance: i64,
+    /// Level at which the cycle begins, Z steps; not below `clearance`.
+    pub initial: i64,
+    /// Where the tool goes after each hole.
+    pub retract: crate::cl::RetractTo,
+    /// Largest depth of one peck, steps.
+    pub peck: Option<i64>,
+    /// Dwell at the bottom, s.
+    pub dwell: Option<f64>,
+    /// Feed into the hole; for tapping it is pitch times speed.
+    pub feed: FeedWord,
+}
+
+impl Cycle {
+    /// Z after a hole, steps.
+    #[must_use]
+    pub fn after(&self) -> i64 {
+        match self.retract {
+            crate::cl::RetractTo::Clearance => self.clearance,
+            crate::cl::RetractTo::Initial => self.initial,
+        }
+    }
 }

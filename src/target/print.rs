@@ -2,7 +2,8 @@
 
 use core::fmt::Write as _;
 
-use super::{Block, BlockKind, FeedWord, Grid, Motion, Nurbs, Position, TargetProgram, axes};
+use super::{Block, BlockKind, FeedWord, Grid, Motion, Nurbs, Plane, Position, TargetProgram, axes};
+use crate::cl::{CycleKind, RetractTo};
 use crate::ir::{Coolant, Spindle};
 use crate::post::number::plain;
 
@@ -73,6 +74,13 @@ fn line(out: &mut String, program: &TargetProgram, block: &Block) {
         BlockKind::PathTolerance(Some(tolerance)) => format!("path {tolerance} mm"),
         BlockKind::BeginOperation(name) => format!("operation {name:?}"),
         BlockKind::Motion(motion) => motion_text(program, motion),
+        BlockKind::BeginCycle(cycle) => cycle_text(program, *cycle),
+        BlockKind::Hole(at) => {
+            let grid = &program.capabilities.grid;
+            let rotary = program.capabilities.rotary.map(|r| r.letter);
+            format!("hole{}", position(grid, rotary, at, ALL))
+        }
+        BlockKind::EndCycle => "end-cycle".into(),
     };
     let _ = writeln!(out, "{text}{piece}");
 }
@@ -93,11 +101,14 @@ fn motion_text(program: &TargetProgram, motion: &Motion) -> String {
         Motion::Line { to, feed } => {
             format!("line{}{}", position(grid, rotary, to, ALL), feed_text(grid, *feed))
         }
-        Motion::Arc { to, centre, clockwise, feed } => format!(
-            "arc {}{} i {} j {}{}",
+        Motion::Arc { to, plane, centre, clockwise, feed } => format!(
+            "arc {}{}{} {} {} {} {}{}",
             if *clockwise { "cw" } else { "ccw" },
+            plane_text(*plane),
             position(grid, rotary, to, ALL),
+            offset_name(*plane, 0),
             plain(centre[0], grid.centre_decimals),
+            offset_name(*plane, 1),
             plain(centre[1], grid.centre_decimals),
             feed_text(grid, *feed)
         ),
@@ -106,6 +117,49 @@ fn motion_text(program: &TargetProgram, motion: &Motion) -> String {
             None => "nurbs".into(),
         },
     }
+}
+
+/// Nothing for the XY plane.
+fn plane_text(plane: Plane) -> &'static str {
+    match plane {
+        Plane::Xy => "",
+        Plane::Zx => " zx",
+        Plane::Yz => " yz",
+    }
+}
+
+fn offset_name(plane: Plane, which: usize) -> char {
+    ['i', 'j', 'k'][plane.axes()[which % 3]]
+}
+
+fn cycle_text(program: &TargetProgram, index: u32) -> String {
+    let Some(cycle) = program.cycles.get(index as usize) else { return "cycle".into() };
+    let grid = &program.capabilities.grid;
+    let z = |steps: i64| plain(steps, grid.linear_decimals);
+    let retract = match cycle.retract {
+        RetractTo::Clearance => "clearance",
+        RetractTo::Initial => "initial",
+    };
+    let mut text = format!(
+        "cycle {} surface {} bottom {} clearance {} initial {} retract {retract}",
+        cycle.kind.name().text(),
+        z(cycle.surface),
+        z(cycle.bottom),
+        z(cycle.clearance),
+        z(cycle.initial)
+    );
+    match cycle.kind {
+        CycleKind::Tap { pitch, .. } => _ = write!(text, " pitch {pitch} mm"),
+        CycleKind::BoreOrient { shift } => _ = write!(text, " shift {shift} mm"),
+        _ => {}
+    }
+    if let Some(peck) = cycle.peck {
+        let _ = write!(text, " peck {}", z(peck));
+    }
+    if let Some(dwell) = cycle.dwell {
+        let _ = write!(text, " dwell {dwell} s");
+    }
+    text + &feed_text(grid, cycle.feed)
 }
 
 const ALL: u8 = axes::X | axes::Y | axes::Z | axes::ROTARY;

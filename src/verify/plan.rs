@@ -88,6 +88,10 @@ impl Orders {
                 RecordKind::BeginOperation(index) => operation = Some(*index as usize),
                 RecordKind::Spindle(spindle) => asked.spindle = signed(*spindle),
                 RecordKind::Feed(f) => feed = *f,
+                RecordKind::BeginCycle(cycle) => {
+                    let into = per_minute(cycle.feed, asked.spindle);
+                    orders.feeds.entry(operation).or_default().extend((into > 0.0).then_some(into));
+                }
                 RecordKind::Contour(contour) => {
                     orders.contours.push((operation, contour.curve.clone(), asked));
                     orders.feeds.entry(operation).or_default().extend(contour.plunge_feed);

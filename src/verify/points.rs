@@ -241,10 +241,18 @@ fn in_part(case: &Case<'_>, p: Position) -> Point3 {
 pub(super) fn cl_points(case: &Case<'_>) -> Vec<Finding> {
     let most = 0.5 * case.target.capabilities.grid.linear_step() * 3.0_f64.sqrt() + ACCURACY;
     let mut at = 0;
+    let mut depth = 0.0;
     let mut findings = Vec::new();
     for record in &case.cl.records {
         let point = match record.kind {
             RecordKind::Rapid(p) | RecordKind::Linear(p) => p,
+            RecordKind::Circle(ref circle) => circle.to,
+            RecordKind::BeginCycle(ref cycle) => {
+                depth = cycle.depth;
+                continue;
+            }
+            // The bottom of the hole.
+            RecordKind::Hole(p) => Point3::new(p.x, p.y, p.z - depth),
             _ => continue,
         };
         let rest = case.moves.get(at..).unwrap_or_default();

@@ -100,6 +100,27 @@ pub const OPTIONAL_STOP: Code = Code {
     page: include_str!("../../../docs/diagnostics/N0608.md"),
 };
 
+/// an arc is cut by lines.
+pub const ARC_AS_LINES: Code = Code {
+    id: "N0609",
+    title: "an arc is cut by lines",
+    page: include_str!("../../../docs/diagnostics/N0609.md"),
+};
+
+/// a drilling cycle is written as moves.
+pub const CYCLE_EXPANDED: Code = Code {
+    id: "N0610",
+    title: "a drilling cycle is written as moves",
+    page: include_str!("../../../docs/diagnostics/N0610.md"),
+};
+
+/// the cycle needs the control.
+pub const NO_CYCLE: Code = Code {
+    id: "E0608",
+    title: "the controller does not have this cycle",
+    page: include_str!("../../../docs/diagnostics/E0608.md"),
+};
+
 /// All codes of this area.
 pub const ALL: &[&Code] = &[
     &CANNOT_FIT,
@@ -116,4 +137,7 @@ pub const ALL: &[&Code] = &[
     &PATH_TOLERANCE,
     &COOLANT,
     &OPTIONAL_STOP,
+    &ARC_AS_LINES,
+    &CYCLE_EXPANDED,
+    &NO_CYCLE,
 ];

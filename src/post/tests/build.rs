@@ -39,6 +39,7 @@ impl Sheet {
             tools: vec![tool(origin)],
             pieces: Vec::new(),
             nurbs: Vec::new(),
+            cycles: Vec::new(),
             blocks: Vec::new(),
         };
         let sheet = Sheet { dialect, program, origins, origin, at: Position::default() };
@@ -84,7 +85,13 @@ impl Sheet {
     pub fn arc(mut self, x: i64, y: i64, centre: [i64; 2], clockwise: bool) -> Sheet {
         self.at = Position { x, y, ..self.at };
         let (to, feed) = (self.at, self.minute());
-        self.event(BlockKind::Motion(Motion::Arc { to, centre, clockwise, feed }))
+        self.event(BlockKind::Motion(Motion::Arc {
+            to,
+            plane: crate::target::Plane::Xy,
+            centre,
+            clockwise,
+            feed,
+        }))
     }
     pub fn nurbs(mut self, nurbs: Nurbs) -> Sheet {
         self.at = nurbs.points.last().map_or(self.at, |p| p.0);

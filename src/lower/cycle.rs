@@ -1,0 +1,209 @@
+//! Drilling cycles: kept where the control has them, else the moves they stand for.
+//!
+//! The moves are those of the word-address controls: over the hole at the level the cutter is on, but not below the
+//! clearance level; at rapid to the clearance level; the hole; at rapid to the clearance or the initial level. Pecks
+//! count from the clearance level.
+
+use super::emit::Emitter;
+use super::feed;
+use crate::cl::{Cycle, CycleKind, RetractTo};
+use crate::diag::codes;
+use crate::geom::Point3;
+use crate::ir::{Feed, Spindle};
+use crate::target::{self, BlockKind, FeedWord, Position, axes};
+
+/// How far a peck is backed out to break the chip, and how far above the last peck rapid ends, mm.
+const PECK_GAP: f64 = 0.5;
+/// Pecks of one hole at most.
+const MOST_PECKS: i64 = 10_000;
+
+/// The cycle in force.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Active {
+    cycle: Cycle,
+    /// Z when it began, if known.
+    initial: Option<i64>,
+    /// Index of the target cycle that is open.
+    open: Option<usize>,
+}
+
+/// Levels of a hole, Z steps.
+#[derive(Debug, Clone, Copy)]
+struct Hole {
+    x: i64,
+    y: i64,
+    surface: i64,
+    bottom: i64,
+    clearance: i64,
+    initial: i64,
+}
+
+impl Emitter<'_> {
+    /// A cycle comes into force; nothing moves.
+    pub(super) fn begin_cycle(&mut self, cycle: &Cycle) {
+        self.end_cycle();
+        self.cycle = Some(Active { cycle: *cycle, initial: self.at[2], open: None });
+    }
+
+    /// The cycle ends.
+    pub(super) fn end_cycle(&mut self) {
+        self.close_cycle();
+        self.cycle = None;
+    }
+
+    pub(super) fn close_cycle(&mut self) {
+        if let Some(active) = &mut self.cycle
+            && active.open.take().is_some()
+        {
+            self.event(BlockKind::EndCycle);
+        }
+    }
+
+    /// One hole.
+    pub(super) fn hole(&mut self, point: Point3) {
+        let Some(active) = self.cycle else { return };
+        let cycle = active.cycle;
+        let [x, y, surface] = self.round(point);
+        let bottom = self.linear(point.z - cycle.depth);
+        let clearance = self.linear(point.z + cycle.clearance);
+        let initial = active.initial.unwrap_or(clearance).max(clearance);
+        let hole = Hole { x, y, surface, bottom, clearance, initial };
+        let Some(feed) = self.cycle_feed(&cycle) else { return };
+        if self.capabilities.cycles.contains(&cycle.kind.name()) && self.capabilities.rotary.is_none() {
+            self.keep(active, hole, feed);
+        } else {
+            self.expand(&cycle, hole, feed);
+        }
+        self.exact = Some(Point3::new(point.x, point.y, self.mm(self.at[2].unwrap_or(hole.initial))));
+    }
+
+    fn mm(&self, steps: i64) -> f64 {
+        steps as f64 * self.capabilities.grid.linear_step()
+    }
+
+    /// Feed into the hole; a tap's is pitch times speed.
+    fn cycle_feed(&mut self, cycle: &Cycle) -> Option<FeedWord> {
+        let wanted = match cycle.kind {
+            CycleKind::Tap { pitch, .. } => Feed::PerRevolution(pitch),
+            _ => cycle.feed,
+        };
+        match feed::per_minute(Some(wanted), self.rpm)
+            .and_then(|value| feed::minute_word(value, self.capabilities))
+        {
+            Ok(word) => Some(word),
+            Err(trouble) => {
+                self.feed_trouble(&trouble);
+                None
+            }
+        }
+    }
+
+    fn keep(&mut self, active: Active, hole: Hole, feed: FeedWord) {
+        let cycle = active.cycle;
+        let open = active.open.and_then(|i| self.cycles.get(i)).copied();
+        let same = open.is_some_and(|c| c.surface == hole.surface && c.feed == feed);
+        if !same {
+            self.close_cycle();
+            self.lift(&cycle, &hole);
+            let step = self.capabilities.grid.linear_step();
+            let initial = self.at[2].unwrap_or(hole.initial);
+            let index = self.cycles.len();
+            self.cycles.push(target::Cycle {
+                kind: cycle.kind,
+                surface: hole.surface,
+                bottom: hole.bottom,
+                clearance: hole.clearance,
+                initial,
+                retract: cycle.retract,
+                peck: cycle.peck.map(|p| ((p / step).round() as i64).max(1)),
+                dwell: cycle.dwell,
+                feed,
+            });
+            self.event(BlockKind::BeginCycle(u32::try_from(index).unwrap_or(u32::MAX)));
+            if let Some(active) = &mut self.cycle {
+                active.open = Some(index);
+            }
+        }
+        let turn = self.cartesian_turn();
+        let position = Position { x: hole.x, y: hole.y, z: hole.surface, r: turn };
+        self.check_place(&[position, Position { z: hole.bottom, ..position }]);
+        self.event(BlockKind::Hole(position));
+        let after = match cycle.retract {
+            RetractTo::Clearance => hole.clearance,
+            RetractTo::Initial => self.cycles.last().map_or(hole.initial, |c| c.initial),
+        };
+        self.at = [Some(hole.x), Some(hole.y), Some(after), self.at[3]];
+    }
+
+    /// Up to the level at which the cutter goes over the next hole, if it is below.
+    fn lift(&mut self, cycle: &Cycle, hole: &Hole) {
+        let least = match cycle.retract {
+            RetractTo::Clearance => hole.clearance,
+            RetractTo::Initial => hole.initial,
+        };
+        if self.at[2].is_none_or(|z| z < least) {
+            self.rapid_axes(Position { z: least, ..self.here() }, axes::Z);
+        }
+    }
+
+    /// The moves of a cycle that the control does not have.
+    fn expand(&mut self, cycle: &Cycle, hole: Hole, feed: FeedWord) {
+        let name = cycle.kind.name().text();
+        if matches!(cycle.kind, CycleKind::Tap { .. } | CycleKind::BoreOrient { .. }) {
+            let message =
+                format!("`{}` has no cycle `{name}`, and no moves can stand for it", self.capabilities.name);
+            return self.complain(&codes::lowering::NO_CYCLE, message);
+        }
+        let message =
+            format!("`{}` has no cycle `{name}`: its moves are written out", self.capabilities.name);
+        self.complain(&codes::lowering::CYCLE_EXPANDED, message);
+        self.lift(cycle, &hole);
+        let turn = self.cartesian_turn();
+        let over = Position { x: hole.x, y: hole.y, z: hole.clearance, r: turn };
+        self.rapid(over);
+        match cycle.kind {
+            CycleKind::Deep | CycleKind::ChipBreak => self.pecks(cycle, over, hole, feed),
+            _ => self.line(Position { z: hole.bottom, ..over }, feed),
+        }
+        if let Some(seconds) = cycle.dwell.filter(|s| *s > 0.0) {
+            self.event(BlockKind::Dwell(seconds));
+        }
+        self.leave(cycle, over, hole, feed);
+    }
+
+    fn leave(&mut self, cycle: &Cycle, over: Position, hole: Hole, feed: FeedWord) {
+        let stopped = matches!(cycle.kind, CycleKind::BoreStop);
+        if stopped {
+            self.event(BlockKind::Spindle(Spindle::Off));
+        }
+        if matches!(cycle.kind, CycleKind::Bore | CycleKind::BoreDwell) {
+            self.line(over, feed);
+        }
+        let z = if cycle.retract == RetractTo::Initial { hole.initial } else { hole.clearance };
+        self.rapid_axes(Position { z, ..over }, axes::Z);
+        if let (true, Some(on)) = (stopped, self.spinning) {
+            self.event(BlockKind::Spindle(on));
+        }
+    }
+
+    /// Down peck by peck, counted from the clearance level.
+    fn pecks(&mut self, cycle: &Cycle, over: Position, hole: Hole, feed: FeedWord) {
+        let step = self.capabilities.grid.linear_step();
+        let whole = hole.clearance - hole.bottom;
+        let least = (whole / MOST_PECKS).max(1);
+        let peck = cycle.peck.map_or(whole, |p| (p / step).round() as i64).max(least);
+        let gap = ((PECK_GAP / step).round() as i64).min(peck);
+        let mut z = hole.clearance;
+        loop {
+            z = (z - peck).max(hole.bottom);
+            self.line(Position { z, ..over }, feed);
+            if z <= hole.bottom {
+                return;
+            }
+            if cycle.kind == CycleKind::Deep {
+                self.rapid_axes(over, axes::Z);
+            }
+            self.rapid_axes(Position { z: (z + gap).min(hole.clearance), ..over }, axes::Z);
+        }
+    }
+}
