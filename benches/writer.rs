@@ -33,6 +33,7 @@ fn xy(i: i64) -> Motion {
 fn arc(i: i64) -> Motion {
     let to = Position { x: i * 37 % 90_001 - 45_000, y: i * 91 % 80_021 - 40_000, z: -5_000, r: 0 };
     Motion::Arc {
+        plane: partwright::target::Plane::Xy,
         to,
         centre: [i % 9_973, -(i % 7_919)],
         clockwise: i % 2 == 0,
@@ -55,6 +56,7 @@ fn program(dialect: &post::Dialect, origins: &mut Arena<Origin>, kind: Kind) -> 
         tools: Vec::new(),
         pieces: Vec::new(),
         nurbs: Vec::new(),
+        cycles: Vec::new(),
         blocks,
     }
 }
