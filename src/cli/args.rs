@@ -6,6 +6,10 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::diag::render::Format;
 
+pub mod post;
+
+use post::{PostArgs, SchemaArgs};
+
 /// A compiler for part programs: APT-like source in, proven G-code out.
 #[derive(Debug, Parser)]
 #[command(name = "partwright", version, propagate_version = true, after_help = EXAMPLES)]
@@ -47,6 +51,10 @@ pub enum Verb {
     /// Draw a cam, the cutter's path, or its deviation from the exact curves.
     #[command(after_help = PLOT_EXAMPLES)]
     Plot(PlotArgs),
+    /// List, show, check, make and try posts.
+    Post(PostArgs),
+    /// Print the JSON Schema of a file that partwright reads or writes.
+    Schema(SchemaArgs),
 }
 
 const BUILD_EXAMPLES: &str = "\
@@ -75,6 +83,9 @@ pub struct BuildArgs {
     /// program's MACHIN statements decide.
     #[arg(long, value_name = "NAME|FILE")]
     pub post: Vec<String>,
+    /// What the posts say otherwise in this run.
+    #[command(flatten)]
+    pub overrides: post::PostSet,
     /// The output file, when there is only one; `-` is standard output.
     #[arg(short, long, value_name = "FILE", conflicts_with = "out_dir")]
     pub output: Option<PathBuf>,

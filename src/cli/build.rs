@@ -37,6 +37,7 @@ impl Compiled {
 pub fn build(args: &BuildArgs, messages: Messages) -> Result<Status, Diagnostic> {
     let mut options = driver_options(&args.common)?;
     options.posts.clone_from(&args.post);
+    options.post_set = args.overrides.pairs()?;
     options.keep_ast = args.emit.contains(&Stage::Ast);
     options.check_only = !args.emit.iter().any(|s| matches!(s, Stage::Target | Stage::Nc));
     let compiled = compile(&args.files, &options, &args.common, messages)?;
@@ -134,7 +135,7 @@ pub fn show(compiled: &[Compiled], messages: Messages) -> Status {
 }
 
 /// File trouble comes before errors of a program, and those before what only the proof finds.
-fn worse(a: Status, b: Status) -> Status {
+pub fn worse(a: Status, b: Status) -> Status {
     let rank = |s: Status| match s {
         Status::Done => 0,
         Status::NotProven => 1,
@@ -145,7 +146,7 @@ fn worse(a: Status, b: Status) -> Status {
     if rank(a) >= rank(b) { a } else { b }
 }
 
-fn status_of(diagnostics: &[Diagnostic]) -> Status {
+pub fn status_of(diagnostics: &[Diagnostic]) -> Status {
     diagnostics.iter().filter(|d| d.severity == Severity::Error).map(status_of_one).fold(Status::Done, worse)
 }
 
@@ -163,8 +164,8 @@ fn status_of_one(diagnostic: &Diagnostic) -> Status {
 
 /// Codes of files, the command line and post files.
 fn is_trouble(id: &str) -> bool {
-    use crate::diag::codes::{command, post};
-    command::ALL.iter().chain(post::ALL).any(|c| c.id == id)
+    use crate::diag::codes::{command, post, tools};
+    [command::ALL, post::ALL, tools::OF_COMMANDS, tools::OF_POSTS].into_iter().flatten().any(|c| c.id == id)
 }
 
 /// Something that this run will make.

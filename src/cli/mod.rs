@@ -14,8 +14,10 @@ mod explain;
 mod messages;
 mod output;
 mod plot;
+mod post;
 mod progress;
 mod report;
+mod schema;
 
 use args::{Cli, Verb};
 use messages::Messages;
@@ -79,6 +81,8 @@ fn dispatch(cli: &Cli) -> Status {
         Verb::Check(args) => build::check(args, messages),
         Verb::Explain(args) => explain::explain(args.code.as_deref()).and_then(|page| print(&page)),
         Verb::Plot(args) => plot::plot(args, messages),
+        Verb::Post(args) => post::post(&args.verb, messages),
+        Verb::Schema(args) => print(&schema::text(args.of)),
     };
     result.unwrap_or_else(|diagnostic| {
         messages.global(&diagnostic);

@@ -24,6 +24,8 @@ pub struct Options {
     pub defines: Vec<(String, String)>,
     /// Posts by name or file; when empty, the program's `MACHIN` statements decide.
     pub posts: Vec<String>,
+    /// `--post-set KEY=VALUE`, as given; they hold for every post.
+    pub post_set: Vec<(String, String)>,
     /// The post when neither [`Options::posts`] nor the program names one; without it that is an error.
     pub default_post: Option<String>,
     /// Stop before lowering: all checks of the program, no output.
@@ -128,10 +130,10 @@ fn back(build: &mut Build, files: &dyn FileProvider, options: &Options, sink: &m
         return;
     }
     let (Some(ir), Some(cl)) = (&build.ir, &build.cl) else {
-        return targets::check(&options.posts, files, &mut build.sources, sink);
+        return targets::check(options, files, &mut build.sources, sink);
     };
     let wanted = targets::wanted(options, &ir.machines, sink);
-    build.outputs = targets::make(cl, &wanted, files, &mut build.sources, sink);
+    build.outputs = targets::make(cl, &wanted, options, files, &mut build.sources, sink);
 }
 
 /// By file and place; what has no place comes last. Messages at one place stay in the order they came.

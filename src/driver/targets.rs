@@ -39,9 +39,9 @@ pub(super) fn wanted<'a>(options: &Options, machines: &'a [Machine], sink: &mut 
 }
 
 /// Reports what is wrong with posts that will not be used, because the program has errors.
-pub(super) fn check(posts: &[String], files: &dyn FileProvider, sources: &mut SourceMap, sink: &mut Sink) {
-    for name in posts {
-        if let Err(errors) = post::load(name, files, sources) {
+pub(super) fn check(options: &Options, files: &dyn FileProvider, sources: &mut SourceMap, sink: &mut Sink) {
+    for name in &options.posts {
+        if let Err(errors) = post::load_with(name, &options.post_set, files, sources) {
             errors.into_iter().for_each(|e| sink.push(e));
         }
     }
@@ -63,11 +63,13 @@ struct Ready {
 pub(super) fn make(
     cl: &Cl,
     wanted: &[Wanted<'_>],
+    options: &Options,
     files: &dyn FileProvider,
     sources: &mut SourceMap,
     sink: &mut Sink,
 ) -> Vec<Output> {
-    let ready: Vec<Ready> = wanted.iter().filter_map(|w| prepare(cl, w, files, sources, sink)).collect();
+    let ready: Vec<Ready> =
+        wanted.iter().filter_map(|w| prepare(cl, w, options, files, sources, sink)).collect();
     if sink.has_errors() {
         return Vec::new();
     }
@@ -87,6 +89,7 @@ pub(super) fn make(
 fn prepare(
     cl: &Cl,
     wanted: &Wanted<'_>,
+    options: &Options,
     files: &dyn FileProvider,
     sources: &mut SourceMap,
     sink: &mut Sink,
@@ -98,7 +101,7 @@ fn prepare(
         }
         sink.push(diagnostic);
     };
-    let dialect = match post::load(&wanted.name, files, sources) {
+    let dialect = match post::load_with(&wanted.name, &options.post_set, files, sources) {
         Ok(dialect) => dialect,
         Err(errors) => {
             errors.into_iter().for_each(report);

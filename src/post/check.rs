@@ -25,7 +25,7 @@ pub fn check(dialect: &Dialect, templates: bool) -> Vec<Diagnostic> {
 }
 
 /// A message at the value of `path`, or without a place when no file says it.
-fn at(dialect: &Dialect, path: &str, code: &'static Code, message: String) -> Diagnostic {
+pub(super) fn at(dialect: &Dialect, path: &str, code: &'static Code, message: String) -> Diagnostic {
     match tree::find(&dialect.tree, path) {
         Some(entry) => Diagnostic::new(code, entry.value, message),
         None => Diagnostic::global(code, message),
@@ -178,17 +178,24 @@ fn check_rotary(dialect: &Dialect, errors: &mut Vec<Diagnostic>) {
     }
 }
 
+/// All templates of a dialect with their paths.
+pub(super) fn templates(dialect: &Dialect) -> Vec<(String, &str)> {
+    let templates = &dialect.spec.templates;
+    let change = &dialect.spec.tool_change;
+    let fixed = [
+        ("templates.header", &templates.header),
+        ("templates.operation", &templates.operation),
+        ("templates.footer", &templates.footer),
+        ("tool-change.with-first-z", &change.with_first_z),
+    ];
+    let fixed = fixed.into_iter().map(|(path, text)| (path.to_owned(), text.as_str()));
+    let blocks = change.blocks.iter().map(|(n, t)| (format!("tool-change.blocks.{n}"), t.as_str()));
+    fixed.chain(blocks).collect()
+}
+
 fn check_templates(dialect: &Dialect, errors: &mut Vec<Diagnostic>) {
     let renderer = Renderer::new(&dialect.spec.comments);
-    let templates = &dialect.spec.templates;
-    let fixed = [
-        ("templates.header".to_owned(), &templates.header),
-        ("templates.operation".to_owned(), &templates.operation),
-        ("templates.footer".to_owned(), &templates.footer),
-        ("tool-change.with-first-z".to_owned(), &dialect.spec.tool_change.with_first_z),
-    ];
-    let blocks = dialect.spec.tool_change.blocks.iter().map(|(n, t)| (format!("tool-change.blocks.{n}"), t));
-    for (path, template) in fixed.into_iter().chain(blocks) {
+    for (path, template) in templates(dialect) {
         if let Err(error) = renderer.check(template) {
             errors.push(template_error(dialect, &path, &error));
         }
@@ -211,6 +218,6 @@ pub fn template_error(dialect: &Dialect, path: &str, error: &super::template::Te
 }
 
 /// Templates are long; a caret under their opening quote is enough.
-fn first_byte(span: Span) -> Span {
+pub(super) fn first_byte(span: Span) -> Span {
     Span { end: span.start.saturating_add(1).min(span.end), ..span }
 }

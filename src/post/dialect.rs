@@ -44,6 +44,10 @@ pub struct Dialect {
     pub(super) spec: Spec,
     /// The merged tree, for places.
     pub(super) tree: Table,
+    /// The files that were merged, from the child to the parent.
+    pub(super) lineage: Vec<String>,
+    /// The file that was asked for.
+    pub(super) leaf: crate::source::FileId,
 }
 
 impl Dialect {
@@ -76,6 +80,11 @@ impl Dialect {
     #[must_use]
     pub fn basis(&self) -> &str {
         &self.spec.post.basis
+    }
+    /// The files it was made of, from the child to the parent; built-in ones by name.
+    #[must_use]
+    pub fn lineage(&self) -> &[String] {
+        &self.lineage
     }
     /// The resolved data.
     #[must_use]

@@ -57,7 +57,8 @@ pub fn load_with(
     files: &dyn FileProvider,
     sources: &mut SourceMap,
 ) -> Result<Dialect, Vec<Diagnostic>> {
-    let mut loader = Loader { files, sources, chain: Vec::new(), user: false };
+    let mut loader =
+        Loader { files, sources, chain: Vec::new(), lineage: Vec::new(), leaf: None, user: false };
     let result = loader.dialect(name_or_path, overrides);
     result.map_err(|errors| name_builtins(errors, sources))
 }
@@ -74,7 +75,14 @@ impl Loader<'_> {
         }
         let user = self.user;
         let spec = typed(&tree).map_err(|message| vec![incomplete(name_or_path, &message)])?;
-        let dialect = Dialect { name: stem(name_or_path), spec, tree };
+        let lineage = core::mem::take(&mut self.lineage);
+        let dialect = Dialect {
+            name: stem(name_or_path),
+            spec,
+            tree,
+            lineage,
+            leaf: self.leaf.unwrap_or(FileId(FIRST_BUILTIN)),
+        };
         if dialect.spec.post.is_abstract {
             return Err(vec![unknown(name_or_path, None)]);
         }
@@ -86,8 +94,21 @@ impl Loader<'_> {
 /// Places in built-in files have this file number and those below it, until a message needs them.
 const FIRST_BUILTIN: u32 = u32::MAX;
 
+/// The built-in file behind a file number of [`FIRST_BUILTIN`] and below: its name and its text.
+pub(super) fn builtin_file(file: FileId) -> Option<(&'static str, &'static str)> {
+    BUILTIN.get((FIRST_BUILTIN - file.0) as usize).copied()
+}
+
+/// The name of overrides in messages.
+const OVERRIDES: &str = "--post-set";
+
+/// Whether a place is in the post file that was asked for, or in an override, not in what it inherits.
+pub(super) fn is_own(dialect: &Dialect, file: FileId, sources: &SourceMap) -> bool {
+    file == dialect.leaf || (builtin_file(file).is_none() && sources.file(file).name == OVERRIDES)
+}
+
 /// Adds the built-in files that messages point into to `sources`, and points the messages there.
-fn name_builtins(mut errors: Vec<Diagnostic>, sources: &mut SourceMap) -> Vec<Diagnostic> {
+pub(super) fn name_builtins(mut errors: Vec<Diagnostic>, sources: &mut SourceMap) -> Vec<Diagnostic> {
     let mut given: Vec<Option<FileId>> = vec![None; BUILTIN.len()];
     let mut place = |label: &mut Label| {
         let index = (FIRST_BUILTIN - label.span.file.0) as usize;
@@ -118,6 +139,10 @@ struct Loader<'a> {
     sources: &'a mut SourceMap,
     /// Names of the files being resolved, from the child to the parent.
     chain: Vec<String>,
+    /// Names of all files that were merged, from the child to the parent.
+    lineage: Vec<String>,
+    /// The file that was asked for.
+    leaf: Option<FileId>,
     /// Whether a file of the user is among them.
     user: bool,
 }
@@ -138,14 +163,19 @@ impl Loader<'_> {
         }
         self.user = true;
         self.chain.push(display.clone());
+        self.lineage.push(display.clone());
         let file = self.sources.add(display.clone(), text.as_str());
+        self.leaf.get_or_insert(file);
         let own = tree::parse(file, &text)?;
         self.inherit(own, Some(&display))
     }
 
     fn builtin(&mut self, index: usize) -> Result<Table, Vec<Diagnostic>> {
-        let text = BUILTIN[index].1;
-        let own = tree::parse(FileId(FIRST_BUILTIN - index as u32), text)?;
+        let (name, text) = BUILTIN[index];
+        self.lineage.push(name.to_owned());
+        let file = FileId(FIRST_BUILTIN - index as u32);
+        self.leaf.get_or_insert(file);
+        let own = tree::parse(file, text)?;
         self.inherit(own, None)
     }
 
@@ -179,7 +209,7 @@ impl Loader<'_> {
             } else {
                 format!("{key} = {}\n", toml::Value::String(value.clone()))
             };
-            let file: FileId = self.sources.add("--post-set", text.as_str());
+            let file: FileId = self.sources.add(OVERRIDES, text.as_str());
             merged = tree::merge(merged, tree::parse(file, &text)?);
         }
         Ok(merged)

@@ -13,6 +13,9 @@ mod check;
 pub mod comment;
 pub mod dialect;
 mod events;
+mod inspect;
+mod json_schema;
+mod lint;
 mod load;
 pub mod number;
 pub mod pattern;
@@ -22,11 +25,15 @@ pub mod template;
 #[cfg(test)]
 mod tests;
 pub mod tree;
+pub mod variables;
 mod write;
 mod writer;
 
 mod capabilities;
 
 pub use dialect::Dialect;
+pub use inspect::{Place, Setting};
+pub use json_schema::json_schema;
+pub use lint::lint;
 pub use load::{builtin_names, builtin_text, load, load_with};
 pub use write::{Written, write};

@@ -3,6 +3,7 @@
 //! Undefined variables are errors. Numbers are printed by [`super::number`], texts of the user come in cleaned
 //! for comments already, so that a template cannot let them out.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use minijinja::value::Value;
@@ -54,6 +55,16 @@ impl Renderer {
     pub fn lines(&self, template: &str, context: &Value) -> Result<Vec<String>, TemplateError> {
         let text = self.environment.render_str(template, context).map_err(|e| describe(&e))?;
         Ok(text.lines().map(str::trim_end).filter(|line| !line.is_empty()).map(str::to_owned).collect())
+    }
+
+    /// The variables that a template reads and does not set itself, members with a point, by name; none when
+    /// it cannot be compiled.
+    #[must_use]
+    pub fn variables(&self, template: &str) -> BTreeSet<String> {
+        let compiled = self.environment.template_from_str(template);
+        let names = compiled.map(|t| t.undeclared_variables(true)).unwrap_or_default();
+        let globals: BTreeSet<&str> = self.environment.globals().map(|(name, _)| name).collect();
+        names.into_iter().filter(|name| !globals.contains(name.as_str())).collect()
     }
 
     /// Checks the syntax only.

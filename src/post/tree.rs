@@ -68,7 +68,9 @@ pub fn plain(table: &Table) -> toml::Table {
     table.iter().map(|(name, entry)| (name.clone(), plain_node(&entry.node))).collect()
 }
 
-fn plain_node(node: &Node) -> toml::Value {
+/// A node without places.
+#[must_use]
+pub fn plain_node(node: &Node) -> toml::Value {
     match node {
         Node::Table(table) => toml::Value::Table(plain(table)),
         Node::Leaf(value) => value.clone(),

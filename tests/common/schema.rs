@@ -14,6 +14,11 @@ pub fn check(root: &Value, schema: &Value, value: &Value, path: &str) -> Result<
         let fits = any.iter().any(|s| check(root, s, value, path).is_ok());
         return if fits { Ok(()) } else { Err(format!("{path}: no alternative fits {value}")) };
     }
+    if let Some(words) = schema["enum"].as_array()
+        && !words.contains(value)
+    {
+        return Err(format!("{path}: {value} is not one of {words:?}"));
+    }
     if !schema["const"].is_null() && schema["const"] != *value {
         return Err(format!("{path}: {value} is not {}", schema["const"]));
     }
@@ -23,8 +28,9 @@ pub fn check(root: &Value, schema: &Value, value: &Value, path: &str) -> Result<
             object.get(name).ok_or(format!("{path}: {name} is missing"))?;
         }
         for (name, member) in object {
-            let known = &schema["properties"][name];
-            if known.is_null() {
+            let own = &schema["properties"][name];
+            let known = if own.is_null() { &schema["additionalProperties"] } else { own };
+            if !known.is_object() {
                 return Err(format!("{path}: {name} is not in the schema"));
             }
             check(root, known, member, &format!("{path}.{name}"))?;

@@ -27,6 +27,7 @@ pub mod planning;
 pub mod post;
 pub mod semantics;
 pub mod syntax;
+pub mod tools;
 pub mod verification;
 
 /// Every code, by area, in order.
@@ -39,8 +40,10 @@ pub fn all() -> impl Iterator<Item = &'static Code> {
         planning::ALL,
         lowering::ALL,
         post::ALL,
+        tools::OF_POSTS,
         verification::ALL,
         command::ALL,
+        tools::OF_COMMANDS,
         foreign::ALL,
     ]
     .into_iter()

@@ -3,6 +3,7 @@
 mod build;
 mod files;
 mod frame;
+mod lint;
 mod moves;
 mod random;
 

@@ -1,0 +1,30 @@
+//! `partwright post check`.
+
+use super::super::args::post::PostCheckArgs;
+use super::super::messages::{self, Messages, to_stderr};
+use super::super::{Status, build};
+use crate::diag::Diagnostic;
+use crate::post;
+
+/// Checks posts one after the other; the worst decides how the run ends.
+pub fn check(args: &PostCheckArgs, messages: Messages) -> Result<Status, Diagnostic> {
+    messages::check_deny(&args.deny)?;
+    let overrides = args.overrides.pairs()?;
+    let mut status = Status::Done;
+    for name in &args.posts {
+        let one = match super::load(name, &overrides, messages) {
+            Ok((dialect, mut sources)) => {
+                let mut findings = post::lint(&dialect, &mut sources);
+                messages::deny(&mut findings, &args.deny);
+                messages.show(&findings, &sources);
+                if findings.is_empty() && messages.for_people() {
+                    to_stderr(&format!("{name}: nothing to complain about\n"));
+                }
+                build::status_of(&findings)
+            }
+            Err(status) => status,
+        };
+        status = build::worse(status, one);
+    }
+    Ok(status)
+}

@@ -1,0 +1,275 @@
+//! What can be said of a post file beyond its being usable: parts that no program reaches, abilities that its
+//! words cannot express, codes that cannot be told apart.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::Dialect;
+use super::check::{at, first_byte, templates};
+use super::dialect::{ArcForm, FullCircleWords};
+use super::load::{builtin_text, is_own, name_builtins};
+use super::template::Renderer;
+use super::tree;
+use super::variables::{self, Scope};
+use crate::diag::codes::tools as codes;
+use crate::diag::{Diagnostic, did_you_mean};
+use crate::readback;
+use crate::source::SourceMap;
+
+/// Every finding; files that messages point into are added to `sources`.
+#[must_use]
+pub fn lint(dialect: &Dialect, sources: &mut SourceMap) -> Vec<Diagnostic> {
+    let mut lint = Lint { dialect, sources, findings: Vec::new() };
+    lint.variables();
+    lint.blocks();
+    lint.words();
+    lint.options();
+    lint.arcs();
+    lint.feeds();
+    lint.control();
+    lint.codes();
+    let findings = lint.findings;
+    name_builtins(findings, sources)
+}
+
+struct Lint<'a> {
+    dialect: &'a Dialect,
+    sources: &'a SourceMap,
+    findings: Vec<Diagnostic>,
+}
+
+impl Lint<'_> {
+    /// What the file itself says, not what it inherits.
+    fn own(&self, path: &str) -> bool {
+        tree::find(&self.dialect.tree, path)
+            .is_some_and(|entry| is_own(self.dialect, entry.key.file, self.sources))
+    }
+
+    fn unreachable(&mut self, path: &str, message: String) {
+        let finding = at(self.dialect, path, &codes::UNREACHABLE, message);
+        self.findings.push(shortened(finding));
+    }
+
+    fn inexpressible(&mut self, path: &str, message: String) {
+        self.findings.push(at(self.dialect, path, &codes::INEXPRESSIBLE, message));
+    }
+
+    fn alike(&mut self, path: &str, message: String) {
+        self.findings.push(at(self.dialect, path, &codes::ALIKE, message));
+    }
+
+    /// Variables that no program will ever define.
+    fn variables(&mut self) {
+        let renderer = Renderer::new(&self.dialect.spec.comments);
+        for (path, template) in templates(self.dialect) {
+            let known: Vec<&str> = variables::of(scope(&path)).collect();
+            for name in renderer.variables(template) {
+                let first = name.split('.').next().unwrap_or(&name);
+                if known.contains(&name.as_str()) || (first == "options" && self.has_option(&name)) {
+                    continue;
+                }
+                let finding = unknown_variable(self.dialect, &path, &name, &known);
+                self.findings.push(shortened(finding));
+            }
+        }
+    }
+
+    fn has_option(&self, name: &str) -> bool {
+        name.strip_prefix("options.").is_some_and(|key| self.dialect.spec.options.contains_key(key))
+    }
+
+    /// Blocks of the tool change that its order does not name.
+    fn blocks(&mut self) {
+        let change = &self.dialect.spec.tool_change;
+        for name in change.blocks.keys().filter(|n| !change.order.contains(n)) {
+            let path = format!("tool-change.blocks.{name}");
+            if self.own(&path) {
+                let message =
+                    format!("no tool change prints the block `{name}`: `tool-change.order` does not name it");
+                self.unreachable(&path, message);
+            }
+        }
+    }
+
+    /// Words that nothing prints.
+    fn words(&mut self) {
+        let spec = &self.dialect.spec;
+        let patterns = [&spec.patterns.rapid, &spec.patterns.line, &spec.patterns.arc];
+        let printed: BTreeSet<&str> = patterns.into_iter().flatten().map(String::as_str).collect();
+        let slots: Vec<&str> = super::pattern::Slot::ALL.iter().map(|s| s.name()).collect();
+        let built_in = base_words();
+        for name in spec.words.keys() {
+            let path = format!("words.{name}");
+            let named = [&spec.dwell.word, &spec.cycle_dwell.word].contains(&name);
+            let of_motion = slots.contains(&name.as_str());
+            let used = printed.contains(name.as_str()) || named || (!of_motion && built_in.contains(name));
+            if used || !self.own(&path) {
+                continue;
+            }
+            let message = if of_motion {
+                format!("no pattern prints the word `{name}`")
+            } else {
+                format!("nothing prints the word `{name}`")
+            };
+            self.unreachable(&path, message);
+        }
+    }
+
+    /// Options that no template reads.
+    fn options(&mut self) {
+        let renderer = Renderer::new(&self.dialect.spec.comments);
+        let read: BTreeSet<String> =
+            templates(self.dialect).into_iter().flat_map(|(_, t)| renderer.variables(t)).collect();
+        if read.contains("options") {
+            return;
+        }
+        for name in self.dialect.spec.options.keys() {
+            let path = format!("options.{name}");
+            if !read.contains(&path) && self.own(&path) {
+                self.unreachable(&path, format!("no template reads `{path}`"));
+            }
+        }
+    }
+
+    fn arcs(&mut self) {
+        let spec = &self.dialect.spec;
+        if !spec.arcs.enabled {
+            return;
+        }
+        let has = |item: &str| spec.patterns.arc.iter().any(|i| i == item);
+        let (form, wanted): (&str, &[&str]) = match spec.arcs.form {
+            ArcForm::Incremental => ("incremental", &["i", "j"]),
+            ArcForm::Absolute => ("absolute", &["cx", "cy"]),
+            ArcForm::Radius => ("radius", &["radius"]),
+        };
+        let missing: Vec<String> = wanted.iter().filter(|w| !has(w)).map(|w| format!("`{w}`")).collect();
+        if !missing.is_empty() {
+            let message =
+                format!("arcs of the form \"{form}\" need {} in `patterns.arc`", missing.join(" and "));
+            self.inexpressible("patterns.arc", message);
+        }
+        let by_motion = has("motion") && spec.codes.arc_cw != spec.codes.arc_ccw;
+        let by_direction = has("direction") && spec.codes.direction_cw != spec.codes.direction_ccw;
+        if !by_motion && !by_direction {
+            let message = "clockwise and counter-clockwise arcs are printed alike".to_owned();
+            self.inexpressible("patterns.arc", message);
+        }
+        if spec.arcs.form == ArcForm::Radius && spec.arcs.full_circle != FullCircleWords::Split {
+            let message = "a radius cannot say where the centre of a full circle is; `arcs.full-circle` must be \"split\"";
+            self.inexpressible("arcs.full-circle", message.to_owned());
+        }
+    }
+
+    fn feeds(&mut self) {
+        let spec = &self.dialect.spec;
+        let has = |item: &str| spec.patterns.line.iter().any(|i| i == item);
+        if !has("feed") {
+            self.inexpressible(
+                "patterns.line",
+                "`patterns.line` has no `feed`: no move has a feed".to_owned(),
+            );
+        }
+        let modes = [
+            ("inverse-time", spec.feed.inverse_time, &spec.codes.inverse_time),
+            ("per-revolution", spec.feed.per_revolution, &spec.codes.per_revolution),
+        ];
+        for (name, _, code) in modes.into_iter().filter(|(_, claimed, _)| *claimed) {
+            let path = format!("feed.{name}");
+            if code.is_empty() {
+                self.inexpressible(&path, format!("`{path}` is true, but `codes.{name}` is empty"));
+            } else if !has("feed-mode") {
+                let message =
+                    format!("`{path}` is true, but `patterns.line` has no `feed-mode` that would say so");
+                self.inexpressible(&path, message);
+            }
+        }
+        if spec.rotary.enabled && !has("rotary") {
+            let message = "`rotary.enabled` is true, but `patterns.line` has no word `rotary`".to_owned();
+            self.inexpressible("rotary.enabled", message);
+        }
+        if spec.path_control.share > 0.0 && spec.path_control.tolerance.is_empty() {
+            let message = "`path-control.share` gives the control a part of the tolerance, but `path-control.tolerance` is empty";
+            self.inexpressible("path-control.share", message.to_owned());
+        }
+    }
+
+    /// The control that reads the program back.
+    fn control(&mut self) {
+        let control = self.dialect.control();
+        if readback::needs(control).is_some() {
+            return;
+        }
+        let message =
+            format!("no interpreter reads programs of the control `{control}` back: nothing could be proven");
+        let finding = at(self.dialect, "post.control", &codes::INEXPRESSIBLE, message);
+        let help = match did_you_mean(control, readback::controls()) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!("there are {}", readback::controls().collect::<Vec<_>>().join(", ")),
+        };
+        self.findings.push(finding.help(help));
+    }
+
+    /// Codes that mean two things.
+    fn codes(&mut self) {
+        let spec = &self.dialect.spec;
+        if spec.codes.rapid == spec.codes.line && spec.patterns.rapid == spec.patterns.line {
+            let message = format!("moves at rapid and at feed are both printed with `{}`", spec.codes.line);
+            self.alike("codes.rapid", message);
+        }
+        if spec.spindle.clockwise == spec.spindle.counter_clockwise && spec.spindle.order != "speed-only" {
+            let message = format!("both senses of the spindle are `{}`", spec.spindle.clockwise);
+            self.alike("spindle.counter-clockwise", message);
+        }
+        let mut owners: BTreeMap<&str, &str> = BTreeMap::new();
+        for (group, rules) in &spec.groups {
+            for code in &rules.codes {
+                if let Some(other) = owners.insert(code, group).filter(|other| other != group) {
+                    let message = format!("`{code}` is in two modal groups, `{other}` and `{group}`");
+                    self.alike(&format!("groups.{group}.codes"), message);
+                }
+            }
+        }
+    }
+}
+
+/// Where a template runs.
+fn scope(path: &str) -> Scope {
+    match path {
+        "templates.operation" => Scope::Operation,
+        _ if path.starts_with("tool-change.") => Scope::ToolChange,
+        _ => Scope::Everywhere,
+    }
+}
+
+/// Words of the file that all built-in posts inherit from: the writer knows what they are for.
+fn base_words() -> BTreeSet<String> {
+    let text = builtin_text("iso").unwrap_or_default();
+    let words = text.parse::<toml::Table>().ok().and_then(|mut t| t.remove("words"));
+    words.and_then(|w| w.as_table().map(|t| t.keys().cloned().collect())).unwrap_or_default()
+}
+
+fn unknown_variable(dialect: &Dialect, path: &str, name: &str, known: &[&str]) -> Diagnostic {
+    let finding = at(
+        dialect,
+        path,
+        &codes::UNKNOWN_VARIABLE,
+        format!("the template `{path}` has no variable `{name}`"),
+    );
+    let option = name.strip_prefix("options.");
+    let candidates: Vec<String> = match option {
+        Some(_) => dialect.spec.options.keys().map(|k| format!("options.{k}")).collect(),
+        None => known.iter().map(|k| (*k).to_owned()).collect(),
+    };
+    match (did_you_mean(name, candidates.iter().map(String::as_str)), option) {
+        (Some(near), _) => finding.help(format!("did you mean `{near}`?")),
+        (None, Some(option)) => finding.help(format!("say `{option} = \"\u{2026}\"` in [options]")),
+        (None, None) => finding.help(format!("its variables are {}", known.join(", "))),
+    }
+}
+
+/// Values can be long; a caret under the start is enough.
+fn shortened(mut finding: Diagnostic) -> Diagnostic {
+    if let Some(primary) = &mut finding.primary {
+        primary.span = first_byte(primary.span);
+    }
+    finding
+}

@@ -1,0 +1,176 @@
+//! `partwright post`, `partwright schema` and `--post-set`.
+
+mod common;
+
+use common::schema;
+use common::scratch::{Scratch, code, stderr};
+use serde_json::Value;
+
+const POINTS: &str = "\
+PARTNO points
+T1 = CUTTER/ FLAT, 16, NUMBER, 1
+LOADTL/ T1
+SPINDL/ 1200, CLW
+FEDRAT/ 300
+RAPID
+GOTO/ 0, 0, 5
+GOTO/ 10, 0, 5
+FINI
+";
+
+fn stdout(output: &std::process::Output) -> String {
+    String::from_utf8_lossy(&output.stdout).into_owned()
+}
+
+#[test]
+fn the_list_says_how_sure_every_post_is() {
+    let scratch = Scratch::new("post-list");
+    let text = stdout(&scratch.run(&["post", "list"]));
+    for name in partwright::post::builtin_names() {
+        assert!(text.lines().any(|l| l.starts_with(&format!("{name} "))), "{name} is not in\n{text}");
+    }
+    assert!(text.contains("checked by the control's own interpreter"), "{text}");
+    let rows: Value =
+        serde_json::from_str(&stdout(&scratch.run(&["post", "list", "--format", "json"]))).expect("JSON");
+    let names: Vec<&str> = rows.as_array().expect("rows").iter().filter_map(|r| r["name"].as_str()).collect();
+    assert_eq!(names, partwright::post::builtin_names().collect::<Vec<_>>());
+    assert!(rows[0]["confidence"].is_string() && rows[0]["basis"].is_string());
+}
+
+#[test]
+fn show_prints_the_file_or_every_value_with_its_place() {
+    let scratch = Scratch::new("post-show");
+    scratch.write("mill.post.toml", "inherits = \"fanuc\"\n[post]\nextension = \"tap\"\n");
+    let own = stdout(&scratch.run(&["post", "show", "mill.post.toml"]));
+    assert!(own.contains("# inherits: mill.post.toml > fanuc > iso\n# how sure: from the manual ("), "{own}");
+    assert!(own.ends_with("[post]\nextension = \"tap\"\n"), "{own}");
+    let all = stdout(&scratch.run(&[
+        "post",
+        "show",
+        "mill.post.toml",
+        "--resolved",
+        "--post-set",
+        "file.number=7",
+    ]));
+    assert!(all.contains("extension = \"tap\"  # mill.post.toml:3\n"), "{all}");
+    assert!(all.contains("number = 7  # --post-set:1\n"), "{all}");
+    assert!(all.contains("arc-cw = \"G2\"  # builtin iso.post.toml:"), "{all}");
+    scratch.write("all.post.toml", &all);
+    assert_eq!(code(&scratch.run(&["post", "check", "all.post.toml"])), 0);
+    let unknown = scratch.run(&["post", "show", "fanuk"]);
+    assert_eq!(code(&unknown), 2);
+    assert!(stderr(&unknown).contains("did you mean `fanuc`?"), "{}", stderr(&unknown));
+}
+
+#[test]
+fn check_finds_what_is_wrong_and_says_where() {
+    let scratch = Scratch::new("post-check");
+    scratch
+        .write(
+            "slip.post.toml",
+            "inherits = \"fanuc\"\n[templates]\nfooter = \"{{ program.titel }}\\nM30\"\n",
+        )
+        .write("idle.post.toml", "inherits = \"fanuc\"\n[tool-change.blocks]\nwait = \"M0\"\n")
+        .write("key.post.toml", "inherits = \"fanuc\"\n[word.x]\nprefix = \"X\"\n");
+    let check = |args: &[&str]| {
+        let args: Vec<&str> =
+            ["post", "check", "--message-format", "short"].iter().chain(args).copied().collect();
+        let output = scratch.run(&args);
+        (code(&output), stderr(&output))
+    };
+    let (status, text) = check(&["slip.post.toml"]);
+    assert_eq!(status, 1, "{text}");
+    assert!(text.starts_with("slip.post.toml:3:10: error[E0751]: "), "{text}");
+    assert_eq!(check(&["idle.post.toml"]).0, 0);
+    let (status, text) = check(&["idle.post.toml", "--deny", "warnings"]);
+    assert_eq!(status, 1);
+    assert!(text.starts_with("idle.post.toml:3:8: error[W0753]: "), "{text}");
+    let (status, text) = check(&["fanuc", "key.post.toml", "slip.post.toml"]);
+    assert_eq!(status, 1);
+    assert!(text.contains("E0703") && text.contains("E0751"), "{text}");
+    assert_eq!(check(&["nothing.post.toml"]).0, 2);
+}
+
+#[test]
+fn a_new_post_passes_its_check_and_builds() {
+    let scratch = Scratch::new("post-new");
+    scratch.write("points.apt", POINTS);
+    for name in partwright::post::builtin_names() {
+        let file = format!("posts/my-{name}");
+        let made = scratch.run(&["post", "new", &file, "--from", name]);
+        assert_eq!(code(&made), 0, "{}", stderr(&made));
+        let check = scratch.run(&["post", "check", &format!("{file}.post.toml"), "--deny", "warnings"]);
+        assert_eq!(code(&check), 0, "{}", stderr(&check));
+        let build = |post: &str| scratch.run(&["build", "points.apt", "-o", "-", "--post", post]);
+        let (parent, child) = (build(name), build(&format!("{file}.post.toml")));
+        assert_eq!(code(&child), 0, "{}", stderr(&child));
+        assert_eq!(stdout(&child), stdout(&parent), "{name}");
+    }
+    let outside = scratch.run(&["post", "new", "shop/second", "--from", "posts/my-fanuc.post.toml"]);
+    assert_eq!(code(&outside), 2);
+    assert!(stderr(&outside).contains("E0902"), "{}", stderr(&outside));
+    scratch.write("partwright.toml", "");
+    let again = scratch.run(&["post", "new", "shop/second", "--from", "posts/my-fanuc.post.toml"]);
+    assert_eq!(code(&again), 0, "{}", stderr(&again));
+    assert_eq!(code(&scratch.run(&["post", "check", "shop/second.post.toml"])), 0);
+}
+
+#[test]
+fn a_new_post_needs_a_new_and_usable_name() {
+    let scratch = Scratch::new("post-name");
+    scratch.write("mill.post.toml", "old");
+    let cases = [
+        ("mill", "fanuc", "E0952"),
+        ("mill 2", "fanuc", "E0953"),
+        ("fanuc", "fanuc", "E0953"),
+        ("x", "fanuk", "E0701"),
+    ];
+    for (name, from, id) in cases {
+        let output = scratch.run(&["post", "new", name, "--from", from]);
+        assert_eq!(code(&output), 2, "{}", stderr(&output));
+        assert!(stderr(&output).contains(id), "{}", stderr(&output));
+    }
+    assert_eq!(
+        (scratch.names(), scratch.read("mill.post.toml")),
+        (vec!["mill.post.toml".to_owned()], "old".to_owned())
+    );
+}
+
+#[test]
+fn keys_of_the_post_can_be_set_for_one_run() {
+    let scratch = Scratch::new("post-set");
+    scratch.write("points.apt", POINTS);
+    let build =
+        |set: &str| scratch.run(&["build", "points.apt", "--post", "linuxcnc", "-o", "-", "--post-set", set]);
+    assert!(stdout(&build("numbers.point=always")).contains("X10."));
+    assert!(stdout(&build("numbers.plus=true")).contains("X+10"));
+    for (set, id, status) in
+        [("numbers.plus", "E0951", 2), ("=1", "E0951", 2), ("numbers.pluss=true", "E0703", 1)]
+    {
+        let output = build(set);
+        assert_eq!(code(&output), status, "{set}: {}", stderr(&output));
+        assert!(stderr(&output).contains(id), "{set}: {}", stderr(&output));
+    }
+}
+
+#[test]
+fn posts_and_messages_are_as_their_schemas_say() {
+    let scratch = Scratch::new("schema");
+    let read =
+        |of: &str| -> Value { serde_json::from_str(&stdout(&scratch.run(&["schema", of]))).expect("JSON") };
+    let post = read("post");
+    for name in partwright::post::builtin_names() {
+        let text = stdout(&scratch.run(&["post", "show", name, "--resolved"]));
+        let value: Value = toml::from_str(&text).expect("TOML");
+        schema::check(&post, &post, &value, name).expect("as the schema says");
+    }
+    let wrong: Value = toml::from_str("[words.x]\ndecimals = 99\nprefx = 'X'").expect("TOML");
+    assert!(schema::check(&post, &post, &wrong, "wrong").is_err());
+    let diagnostics = read("diagnostics");
+    scratch.write("a.apt", "PARTNO broken\nGOTO/ 1, 2 3\n");
+    for line in stderr(&scratch.run(&["check", "a.apt", "--message-format", "json"])).lines() {
+        let value: Value = serde_json::from_str(line).expect("JSON");
+        schema::check(&diagnostics, &diagnostics, &value, "message").expect("as the schema says");
+    }
+    assert_eq!(read("report")["type"], "object");
+}
