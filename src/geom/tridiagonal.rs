@@ -7,8 +7,8 @@ pub(crate) enum End {
     Periodic,
     /// Second derivative 0.
     Natural,
-    /// Slopes given.
-    Clamped(f64, f64),
+    /// Slopes at the start and at the end; without one, the second derivative there is 0.
+    Clamped(Option<f64>, Option<f64>),
 }
 
 /// Slopes at the nodes of the C2 cubic spline through `values` at the ascending `nodes` (at least two, three
@@ -30,18 +30,13 @@ pub(crate) fn slopes(nodes: &[f64], values: &[f64], end: End) -> Vec<f64> {
     };
     match end {
         End::Clamped(a, b) => {
-            let rows = (1..n - 1).map(inner);
-            let rows: Vec<_> =
-                [(0.0, 1.0, 0.0, a)].into_iter().chain(rows).chain([(0.0, 1.0, 0.0, b)]).collect();
+            let free = |rise: f64| (1.0, 2.0, 1.0, 3.0 * rise);
+            let first = a.map_or(free(rise[0]), |a| (0.0, 1.0, 0.0, a));
+            let last = b.map_or(free(rise[n - 2]), |b| (0.0, 1.0, 0.0, b));
+            let rows: Vec<_> = [first].into_iter().chain((1..n - 1).map(inner)).chain([last]).collect();
             thomas(&rows)
         }
-        End::Natural => {
-            let rows = (1..n - 1).map(inner);
-            let first = (0.0, 2.0, 1.0, 3.0 * rise[0]);
-            let last = (1.0, 2.0, 0.0, 3.0 * rise[n - 2]);
-            let rows: Vec<_> = [first].into_iter().chain(rows).chain([last]).collect();
-            thomas(&rows)
-        }
+        End::Natural => slopes(nodes, values, End::Clamped(None, None)),
         End::Periodic => periodic(&inverse, &rise, inner),
     }
 }
@@ -104,7 +99,9 @@ mod tests {
         let cubic = |x: f64| 1.0 + x * (2.0 + x * (-3.0 + 0.5 * x));
         let slope = |x: f64| 2.0 + x * (-6.0 + 1.5 * x);
         let values: Vec<f64> = nodes.iter().map(|x| cubic(*x)).collect();
-        for (m, x) in slopes(&nodes, &values, End::Clamped(slope(0.0), slope(3.1))).iter().zip(nodes) {
+        for (m, x) in
+            slopes(&nodes, &values, End::Clamped(Some(slope(0.0)), Some(slope(3.1)))).iter().zip(nodes)
+        {
             assert!((m - slope(x)).abs() < 1e-12);
         }
     }

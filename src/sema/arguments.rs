@@ -174,7 +174,20 @@ impl Analyser<'_> {
                     work.found.push(Found { name, span: token.span, typed: Typed::Word(choice.word) });
                     last = (choice.word, token.span);
                 }
-                Item::Repeat(..) => {}
+                Item::Repeat(slot, min, max) => {
+                    let rest = work.tokens.get(i..).unwrap_or(&[]);
+                    let count = rest.iter().take(*max).take_while(|t| t.fits(slot.kind)).count();
+                    for token in rest.iter().take(count) {
+                        self.accept(work, Some(word), slot, token);
+                    }
+                    i += count;
+                    if count < *min {
+                        let tokens = work.tokens;
+                        self.missing_value(work, last, slot, tokens.get(i));
+                        return i;
+                    }
+                    continue;
+                }
             }
             i += 1;
         }

@@ -1,7 +1,5 @@
 //! Commands, declarations and assignments: which code carries them out, and what may be named how.
 
-use std::rc::Rc;
-
 use crate::diag::Diagnostic;
 use crate::diag::codes::semantics as codes;
 use crate::ir::StepKind;
@@ -10,7 +8,7 @@ use crate::syntax::ast::{Command, Expr, Name, Target};
 use crate::vocab::{self, EntityKind, Statement, Usage};
 
 use super::matched::Matched;
-use super::scope::{Array, Binding, BindingKind, Element};
+use super::scope::{Binding, BindingKind};
 use super::value::{Entity, Value};
 use super::{Analyser, End, limits};
 
@@ -149,6 +147,11 @@ impl Analyser<'_> {
             "LINE" => self.line(&m, name),
             "CIRCLE" => self.circle(&m, name),
             "BEZIER" | "CURVE" => self.bezier(&m, name),
+            "SPLINE" => self.spline(&m, name),
+            "TABCYL" => self.tabcyl(&m, name),
+            "PLANE" => self.plane(&m),
+            "MATRIX" => self.matrix(&m),
+            "PATERN" => self.pattern(&m),
             "CUTTER" => self.cutter(&m, name).map(|t| Value::Entity(Entity::Cutter(t))),
             "STOCK" => self.stock(&m, name),
             "FOLLOW" => self.follow(&m),
@@ -186,6 +189,7 @@ impl Analyser<'_> {
             "COOLNT" => self.coolnt(m),
             "INTOL" | "OUTTOL" | "TOLER" => self.tolerance(word, m, span),
             "THICK" => self.thick(m),
+            "TRACUT" => self.tracut(m, span),
             "CLEARP" => self.state.clearance = m.number("height").unwrap_or(self.state.clearance),
             "DELAY" => self.step(StepKind::Dwell(m.number("time").unwrap_or(0.0))),
             "STOP" => self.step(StepKind::Stop),
@@ -263,7 +267,8 @@ impl Analyser<'_> {
         }
     }
 
-    fn room_for_names(&mut self) -> bool {
+    /// Whether one more name may be kept; reports when not.
+    pub(super) fn room_for_names(&mut self) -> bool {
         if self.scope.len() < limits::NAMES {
             return true;
         }
@@ -330,137 +335,10 @@ impl Analyser<'_> {
         };
         self.scope.set(target.name.upper(), Binding { kind, declared: target.name.span });
     }
-
-    /// Sets `name(i)`: a variable, or a declared thing of `kind`.
-    fn set_element(&mut self, target: &Target, kind: Option<EntityKind>, value: Value) {
-        let Some(subscripts) = self.subscripts(&target.subscripts) else {
-            return self.scope.poison(&target.name);
-        };
-        let name = &target.name;
-        let key = name.upper();
-        if self.scope.get(&key).is_none() {
-            if !self.check_reserved(name) || !self.room_for_names() {
-                return;
-            }
-            let array = BindingKind::Array(Rc::new(Array::default()));
-            self.scope.set(key.clone(), Binding { kind: array, declared: name.span });
-        }
-        let Some(binding) = self.scope.get(&key) else { return };
-        let declared = binding.declared;
-        let array = match &binding.kind {
-            BindingKind::Array(array) => array,
-            BindingKind::Poison => return,
-            other => {
-                let message = format!("{} is {} and not subscripted", name.text, what(other));
-                self.report(
-                    Diagnostic::new(&codes::SUBSCRIPT, name.span, message).label(declared, "declared here"),
-                );
-                return;
-            }
-        };
-        let (size, old) = (array.size, array.items.get(&subscripts).cloned());
-        if !self.check_size(name, size, declared, &subscripts)
-            || !self.may_replace(name, &subscripts, old.as_ref(), kind)
-        {
-            return;
-        }
-        if old.is_none() && self.room_for_names() {
-            self.scope.count_element();
-        }
-        if let Some(Binding { kind: BindingKind::Array(array), .. }) = self.scope.get_mut(&key) {
-            Rc::make_mut(array).items.insert(subscripts, Element { value, declared: name.span, kind });
-        }
-    }
-
-    fn may_replace(
-        &mut self,
-        name: &Name,
-        subscripts: &[i64],
-        old: Option<&Element>,
-        kind: Option<EntityKind>,
-    ) -> bool {
-        let Some(old) = old else { return true };
-        if (old.kind.is_none() && kind.is_none())
-            || old.declared == name.span
-            || matches!(old.value, Value::Poison)
-        {
-            return true;
-        }
-        let what = old.kind.map_or("a variable", EntityKind::name);
-        let message = format!("{}({}) is {what} already", name.text, shown(subscripts));
-        self.report(
-            Diagnostic::new(&codes::ALREADY_DECLARED, name.span, message).label(old.declared, "first here"),
-        );
-        false
-    }
-
-    fn check_size(&mut self, name: &Name, size: Option<i64>, declared: Span, subscripts: &[i64]) -> bool {
-        let largest = size.unwrap_or(i64::MAX);
-        if subscripts.first().is_none_or(|&s| s >= 1 && s <= largest) {
-            return true;
-        }
-        let message = format!("{} has no element {}", name.text, shown(subscripts));
-        let problem = Diagnostic::new(&codes::SUBSCRIPT, name.span, message);
-        let problem = match size {
-            Some(size) => problem.label(declared, format!("its subscripts run from 1 to {size}")),
-            None => problem.note("subscripts start at 1"),
-        };
-        self.report(problem);
-        false
-    }
-
-    /// The subscripts as whole numbers: as in APT, what is behind the point does not count.
-    fn subscripts(&mut self, exprs: &[Expr]) -> Option<Vec<i64>> {
-        let mut result = Vec::new();
-        for expr in exprs {
-            match self.evaluate(expr) {
-                Value::Number(q) if q.is_bare() && q.value.abs() < 1e15 => {
-                    #[allow(clippy::cast_possible_truncation)]
-                    result.push((q.value + SUBSCRIPT_SLACK).floor() as i64);
-                }
-                Value::Poison => return None,
-                Value::Word(word) => {
-                    let message =
-                        format!("lists of elements ({word}) are not carried out yet; name the elements");
-                    self.report(Diagnostic::new(&codes::NOT_YET, expr.span, message));
-                    return None;
-                }
-                other => {
-                    let message = format!("a subscript is a pure number, not {}", other.kind_name());
-                    self.report(Diagnostic::new(&codes::SUBSCRIPT, expr.span, message));
-                    return None;
-                }
-            }
-        }
-        Some(result)
-    }
-
-    /// The value of `name(i)`.
-    pub(super) fn element(&mut self, name: &Name, array: &Array, declared: Span, args: &[Expr]) -> Value {
-        let Some(subscripts) = self.subscripts(args) else { return Value::Poison };
-        if !self.check_size(name, array.size, declared, &subscripts) {
-            return Value::Poison;
-        }
-        if let Some(element) = array.items.get(&subscripts) {
-            return element.value.clone();
-        }
-        let message = format!("{}({}) has not been set", name.text, shown(&subscripts));
-        self.report(
-            Diagnostic::new(&codes::SUBSCRIPT, name.span, message).label(declared, "subscripted here"),
-        );
-        Value::Poison
-    }
-}
-
-/// A subscript this little below a whole number is that number.
-const SUBSCRIPT_SLACK: f64 = 1e-9;
-
-fn shown(subscripts: &[i64]) -> String {
-    subscripts.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
 }
 
 /// What a name stands for, with its article.
-fn what(kind: &BindingKind) -> &'static str {
+pub(super) fn what(kind: &BindingKind) -> &'static str {
     match kind {
         BindingKind::Variable(_) => "a variable",
         BindingKind::Parameter(_) => "a parameter",

@@ -193,7 +193,17 @@ impl Analyser<'_> {
 
     /// A tuple of numbers is a point or vector; of other things, a list.
     fn tuple(&mut self, items: &[Expr]) -> Value {
-        let values: Vec<Placed> = items.iter().map(|e| (self.evaluate(e), e.span)).collect();
+        let mut values: Vec<Placed> = Vec::with_capacity(items.len());
+        for item in items {
+            let several = match &item.kind {
+                ExprKind::Apply { name, args } => self.inclusive(name, args),
+                _ => None,
+            };
+            match several {
+                Some(elements) => values.extend(elements.into_iter().map(|e| (e.value, item.span))),
+                None => values.push((self.evaluate(item), item.span)),
+            }
+        }
         if values.iter().any(|(v, _)| matches!(v, Value::Poison)) {
             return Value::Poison;
         }

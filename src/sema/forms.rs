@@ -54,16 +54,22 @@ pub(super) fn extent(form: &Form, tokens: &[Token<'_>]) -> Extent {
     Extent { consumed: i, complete: true }
 }
 
-/// The form that the arguments follow furthest; of equals, the first.
+/// The form that the arguments follow furthest, the first option counted; of equals, the first.
 pub(super) fn choose(statement: &'static Statement, tokens: &[Token<'_>]) -> Option<(&'static Form, Extent)> {
-    let mut best: Option<(&'static Form, Extent)> = None;
+    let mut best: Option<(Extent, &'static Form, Extent)> = None;
     for form in statement.forms {
         let found = extent(form, tokens);
-        if best.is_none_or(|(_, e)| found > e) {
-            best = Some((form, found));
+        let option = found.complete
+            && tokens
+                .get(found.consumed)
+                .and_then(Token::word)
+                .is_some_and(|word| form.options.iter().any(|o| o.words.iter().any(|c| c.word == word)));
+        let reach = Extent { consumed: found.consumed + usize::from(option), ..found };
+        if best.is_none_or(|(r, ..)| reach > r) {
+            best = Some((reach, form, found));
         }
     }
-    best
+    best.map(|(_, form, found)| (form, found))
 }
 
 /// What may stand at argument `at`, over all forms that the arguments follow up to there.
@@ -148,6 +154,8 @@ pub(super) fn describe(kind: Kind) -> String {
             let names: Vec<String> = kinds.iter().map(|k| k.name().to_owned()).collect();
             list(&names, "or")
         }
+        Kind::Declared(kind) => kind.name().into(),
+        Kind::PointOrPattern => "a point or a pattern".into(),
         Kind::Contour => "a cam, a curve or a chain of curves".into(),
         Kind::Text => "a text in quotes".into(),
         Kind::Law => "a motion law".into(),

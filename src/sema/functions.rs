@@ -11,6 +11,7 @@ use crate::vocab::{Function, FunctionId};
 use super::Analyser;
 use super::arithmetic::{Placed, article};
 use super::scope::BindingKind;
+use super::transform::{cross, dot, norm};
 use super::value::{Entity, Value, Vector};
 
 impl Analyser<'_> {
@@ -91,9 +92,12 @@ impl Analyser<'_> {
                 #[allow(clippy::cast_precision_loss)]
                 Value::bare(array.size.unwrap_or(largest) as f64)
             }
+            Some(BindingKind::Entity(_, Value::Entity(Entity::Pattern(points)))) => {
+                Value::bare(math::count(points.len()))
+            }
             Some(BindingKind::Poison) => Value::Poison,
             _ => {
-                let message = format!("{} is not subscripted", name.text);
+                let message = format!("{} is neither subscripted nor a pattern", name.text);
                 self.report(Diagnostic::new(&codes::SUBSCRIPT, name.span, message));
                 Value::Poison
             }
@@ -300,6 +304,11 @@ impl Analyser<'_> {
     }
 }
 
+/// Sine and cosine of an angle in degrees; see [`sine`].
+pub(super) fn sin_cos_degrees(degrees: f64) -> (f64, f64) {
+    (sine(degrees), sine(degrees + 90.0))
+}
+
 /// Sine of an angle in degrees, exact at the multiples of 30 that have a short value.
 fn sine(degrees: f64) -> f64 {
     let turn = degrees - 360.0 * (degrees / 360.0).floor();
@@ -320,16 +329,4 @@ fn sine(degrees: f64) -> f64 {
         x if x <= 270.0 => -quarter(x - 180.0),
         x => -quarter(360.0 - x),
     }
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn norm(v: [f64; 3]) -> f64 {
-    math::hypot(math::hypot(v[0], v[1]), v[2])
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }

@@ -1,4 +1,4 @@
-//! Points, vectors, lines, circles, curves.
+//! Points, vectors, lines, and what geometry of the plane is made of.
 
 use std::rc::Rc;
 use std::sync::Arc;
@@ -6,53 +6,59 @@ use std::sync::Arc;
 use crate::arena::Handle;
 use crate::diag::Diagnostic;
 use crate::diag::codes::{geometry as codes, semantics};
-use crate::geom::curve::{Bezier, CircularArc, CurveRef, Segment, bezier_chain};
+use crate::geom::curve::{CurveRef, Segment};
 use crate::geom::{Point2, Vec2, cross, left};
 use crate::ir::CurveEntity;
-use crate::math::{self, hypot};
+use crate::math::{self, DEG, hypot};
 use crate::source::Span;
 use crate::syntax::ast::BinaryOp;
 use crate::units::{Dim, Quantity};
 
 use super::Analyser;
+use super::functions::sin_cos_degrees;
 use super::matched::{Matched, Typed};
-use super::process::radians;
+use super::patterns::pattern_of;
 use super::value::{CircleValue, Entity, LineValue, Value, Vector};
 
 /// Relative size below which a determinant or distance counts as zero.
-const TOUCH: f64 = 1e-9;
+pub(super) const TOUCH: f64 = 1e-9;
 
 /// A line as a point and a unit direction, mm.
 #[derive(Clone, Copy)]
-struct Ray {
-    p: Point2,
-    u: Vec2,
+pub(super) struct Ray {
+    pub(super) p: Point2,
+    pub(super) u: Vec2,
 }
 
 impl Analyser<'_> {
-    fn impossible(&mut self, at: Span, message: impl Into<String>) -> Diagnostic {
+    /// «This geometry does not exist».
+    pub(super) fn impossible(&mut self, at: Span, message: impl Into<String>) -> Diagnostic {
         Diagnostic::new(&codes::UNDEFINED_GEOMETRY, at, message)
     }
 
-    fn fail_geometry<T>(&mut self, at: Span, message: impl Into<String>) -> Option<T> {
+    /// Reports geometry that does not exist.
+    pub(super) fn fail_geometry<T>(&mut self, at: Span, message: impl Into<String>) -> Option<T> {
         let problem = self.impossible(at, message);
         self.report(problem);
         None
     }
 
-    fn xy(m: &Matched, name: &str) -> Option<Point2> {
+    /// The x and y of a point.
+    pub(super) fn xy(m: &Matched, name: &str) -> Option<Point2> {
         let v = m.vector(name)?.v;
         Some(Point2::new(v[0], v[1]))
     }
 
-    fn ray(m: &Matched, name: &str) -> Option<Ray> {
+    /// A line.
+    pub(super) fn ray(m: &Matched, name: &str) -> Option<Ray> {
         match m.entity(name)? {
             Entity::Line(line) => Some(ray_of(line)),
             _ => None,
         }
     }
 
-    fn disc(m: &Matched, name: &str) -> Option<CircleValue> {
+    /// A circle.
+    pub(super) fn disc(m: &Matched, name: &str) -> Option<CircleValue> {
         match m.entity(name)? {
             Entity::Circle(circle) => Some(**circle),
             _ => None,
@@ -62,23 +68,40 @@ impl Analyser<'_> {
     /// `POINT/ …`.
     pub(super) fn point(&mut self, m: &Matched) -> Option<Value> {
         let v = match m.form {
-            "coordinates" => [m.number("x")?, m.number("y")?, m.number("z").unwrap_or(0.0)],
+            "coordinates" | "canonical" => [m.number("x")?, m.number("y")?, m.number("z").unwrap_or(0.0)],
+            "planes" => self.planes_meet(m)?,
+            "of pattern" => self.point_of_pattern(m)?,
             "point" => m.vector("point")?.v,
             "lines" => self.lines_meet(m)?,
             "circles" => self.circle_meets(m)?,
             "center" => Self::disc(m, "circle")?.centre,
             "on circle" => {
                 let c = Self::disc(m, "circle")?;
-                let (sin, cos) = math::sin_cos(radians(m.number("angle")?));
+                let (sin, cos) = sin_cos_degrees(m.number("angle")?);
                 [c.centre[0] + c.radius * cos, c.centre[1] + c.radius * sin, c.centre[2]]
             }
             _ => {
-                let (sin, cos) = math::sin_cos(radians(m.number("angle")?));
-                let r = m.number("r")?;
-                [r * cos, r * sin, 0.0]
+                let (sin, cos) = sin_cos_degrees(m.number("angle")?);
+                let (a, b) = (m.number("r")? * cos, m.number("r")? * sin);
+                match m.word("plane") {
+                    Some("YZPLAN") => [0.0, a, b],
+                    Some("ZXPLAN") => [b, 0.0, a],
+                    _ => [a, b, 0.0],
+                }
             }
         };
         Some(Value::Vector(Vector { v, dim: Dim::LENGTH }))
+    }
+
+    fn point_of_pattern(&mut self, m: &Matched) -> Option<[f64; 3]> {
+        let points = pattern_of(m, "pattern")?;
+        let number = crate::math::ceil_to_usize(m.number("which")?);
+        let found = number.checked_sub(1).and_then(|i| points.get(i)).copied();
+        if found.is_none() {
+            let message = format!("the pattern has {} points, and none with this number", points.len());
+            self.report(Diagnostic::new(&semantics::OUT_OF_RANGE, m.span("which"), message));
+        }
+        found
     }
 
     fn lines_meet(&mut self, m: &Matched) -> Option<[f64; 3]> {
@@ -94,9 +117,11 @@ impl Analyser<'_> {
         let points = match (m.entity("first")?, m.entity("second")?) {
             (Entity::Line(a), Entity::Line(b)) => meet(ray_of(a), ray_of(b)).into_iter().collect(),
             (Entity::Line(line), Entity::Circle(c)) | (Entity::Circle(c), Entity::Line(line)) => {
-                line_circle(ray_of(line), c)
+                line_circle(ray_of(line), centre_of(c), c.radius)
             }
-            (Entity::Circle(a), Entity::Circle(b)) => circle_circle(a, b),
+            (Entity::Circle(a), Entity::Circle(b)) => {
+                circle_circle((centre_of(a), a.radius), (centre_of(b), b.radius))
+            }
             _ => Vec::new(),
         };
         if points.is_empty() {
@@ -153,7 +178,7 @@ impl Analyser<'_> {
                 Some(self.binary(BinaryOp::Multiply, m.word, (Value::Number(k), place("factor")), v))
             }
             "polar" => {
-                let (sin, cos) = math::sin_cos(radians(m.number("angle")?));
+                let (sin, cos) = sin_cos_degrees(m.number("angle")?);
                 let r = m.number("size")?;
                 Some(Value::Vector(Vector { v: [r * cos, r * sin, 0.0], dim: Dim::LENGTH }))
             }
@@ -187,15 +212,27 @@ impl Analyser<'_> {
     fn line_points(&mut self, m: &Matched) -> Option<(Point2, Point2)> {
         let along = |p: Point2, u: Vec2| Some((p, p + u));
         match m.form {
-            "coordinates" => Some((
+            "coordinates" | "coordinates in space" => Some((
                 Point2::new(m.number("x1")?, m.number("y1")?),
                 Point2::new(m.number("x2")?, m.number("y2")?),
             )),
             "points" => Some((Self::xy(m, "point")?, Self::xy(m, "to")?)),
             "angle" => {
-                let base = Self::ray(m, "line").map_or(0.0, |r| math::atan2(r.u.y, r.u.x));
-                along(Self::xy(m, "point")?, direction(base + radians(m.number("angle")?)))
+                let base = Self::ray(m, "line").map_or(0.0, |r| math::atan2(r.u.y, r.u.x) / DEG);
+                along(Self::xy(m, "point")?, direction(base + m.number("angle")?))
             }
+            "angle to axis" => {
+                let base = if m.word("axis") == Some("YAXIS") { 90.0 } else { 0.0 };
+                along(Self::xy(m, "point")?, direction(base + m.number("angle")?))
+            }
+            "slope" => along(Self::xy(m, "point")?, sloping(m.number("slope")?)),
+            "angle intercept" | "angle intercept axis" => along(intercept(m)?, direction(m.number("angle")?)),
+            "slope intercept" | "slope intercept axis" => along(intercept(m)?, sloping(m.number("slope")?)),
+            "planes" => {
+                let (p, d) = self.planes_line(m)?;
+                along(Point2::new(p[0], p[1]), Vec2::new(d[0], d[1]).normalize())
+            }
+            "canonical" => self.canonical_line(m),
             "tangent" => self.tangent(m),
             "tangents" => self.tangents(m),
             "parallel" => {
@@ -207,15 +244,31 @@ impl Analyser<'_> {
             "parallel through" => along(Self::xy(m, "point")?, Self::ray(m, "line")?.u),
             "perpendicular" => along(Self::xy(m, "point")?, left(Self::ray(m, "line")?.u)),
             _ => {
-                let u =
-                    if m.word("axis") == Some("YAXIS") { Vec2::new(0.0, 1.0) } else { Vec2::new(1.0, 0.0) };
-                along(Point2::origin(), u)
+                let d = m.number("distance").unwrap_or(0.0);
+                if m.word("axis") == Some("YAXIS") {
+                    along(Point2::new(d, 0.0), Vec2::new(0.0, 1.0))
+                } else {
+                    along(Point2::new(0.0, d), Vec2::new(1.0, 0.0))
+                }
             }
         }
     }
 
+    /// a x + b y = d, directed with (a, b) on its right, as APT's canonical form is.
+    fn canonical_line(&mut self, m: &Matched) -> Option<(Point2, Point2)> {
+        let (a, b, c) = (m.number("a")?, m.number("b")?, m.number("c")?);
+        let size = hypot(a, b);
+        if c != 0.0 || size == 0.0 {
+            let message = "a line stands along Z: c is 0, and a and b are not both 0";
+            return self.fail_geometry(m.span(if c == 0.0 { "a" } else { "c" }), message);
+        }
+        let n = Vec2::new(a / size, b / size);
+        let foot = Point2::from(n * (m.number("d")? / size));
+        Some((foot, foot + left(n)))
+    }
+
     /// The unit normal of a line towards `XLARGE` and the like.
-    fn sided(&mut self, m: &Matched, name: &str, ray: Ray) -> Option<Vec2> {
+    pub(super) fn sided(&mut self, m: &Matched, name: &str, ray: Ray) -> Option<Vec2> {
         let word = m.word(name)?;
         let n = left(ray.u);
         let component = if word.starts_with('X') { n.x } else { n.y };
@@ -247,7 +300,7 @@ impl Analyser<'_> {
         // The circle's centre lies on the left of the line when the circle is asked for on the right of its centre.
         let swing = math::asin((c.radius / distance).min(1.0));
         let sign = if m.word("side") == Some("LEFT") { 1.0 } else { -1.0 };
-        let u = direction(math::atan2(to.y, to.x) + sign * swing);
+        let u = direction((math::atan2(to.y, to.x) + sign * swing) / DEG);
         let length = to.dot(&u).max(c.radius);
         Some((p, p + u * length))
     }
@@ -268,144 +321,77 @@ impl Analyser<'_> {
             );
         }
         // The touching points lie at signed distances ra, rb to the left of the centres.
-        let u = direction(math::atan2(d.y, d.x) - math::asin(sine));
+        let u = direction((math::atan2(d.y, d.x) - math::asin(sine)) / DEG);
         Some((pa + left(u) * ra, pb + left(u) * rb))
     }
 
-    /// `CIRCLE/ …`.
-    pub(super) fn circle(&mut self, m: &Matched, name: &str) -> Option<Value> {
-        let (centre, radius) = self.circle_data(m)?;
-        let c = Point2::new(centre[0], centre[1]);
-        let Some(arc) = CircularArc::circle(c, radius, 0.0, true) else {
-            return self.fail_geometry(m.word, "the circle would have no radius");
-        };
-        let curve = self.add_curve(name, Arc::new(arc));
-        Some(Value::Entity(Entity::Circle(Rc::new(CircleValue { centre, radius, curve }))))
-    }
-
-    fn circle_data(&mut self, m: &Matched) -> Option<([f64; 3], f64)> {
-        match m.form {
-            "coordinates" | "coordinates in space" => {
-                Some(([m.number("x")?, m.number("y")?, m.number("z").unwrap_or(0.0)], m.number("r")?))
-            }
-            "three points" => self.through_three(m),
-            "center radius" => Some((m.vector("point")?.v, m.number("r")?)),
-            "center line" => {
-                let (p, ray) = (Self::xy(m, "point")?, Self::ray(m, "line")?);
-                Some((m.vector("point")?.v, cross(ray.u, p - ray.p).abs()))
-            }
-            "center circle" => {
-                let (p, c) = (Self::xy(m, "point")?, Self::disc(m, "circle")?);
-                let distance = (p - Point2::new(c.centre[0], c.centre[1])).norm();
-                let large = m.word("size") == Some("LARGE");
-                let radius = if large { distance + c.radius } else { (distance - c.radius).abs() };
-                Some((m.vector("point")?.v, radius))
-            }
-            "center point" => {
-                let (p, q) = (Self::xy(m, "point")?, Self::xy(m, "through")?);
-                Some((m.vector("point")?.v, (q - p).norm()))
-            }
-            _ => self.between_lines(m),
-        }
-    }
-
-    fn through_three(&mut self, m: &Matched) -> Option<([f64; 3], f64)> {
-        let points = (Self::xy(m, "point")?, Self::xy(m, "second")?, Self::xy(m, "third")?);
-        match CircularArc::through(points.0, points.1, points.2) {
-            Some(arc) => Some(([arc.centre().x, arc.centre().y, m.vector("point")?.v[2]], arc.radius())),
-            None => {
-                self.fail_geometry(m.word, "the three points lie on a line, and no circle goes through them")
-            }
-        }
-    }
-
-    fn between_lines(&mut self, m: &Matched) -> Option<([f64; 3], f64)> {
-        let (a, b, r) = (Self::ray(m, "line")?, Self::ray(m, "second")?, m.number("r")?);
-        let (na, nb) = (self.sided(m, "which", a)?, self.sided(m, "second which", b)?);
-        let (a, b) = (Ray { p: a.p + na * r, u: a.u }, Ray { p: b.p + nb * r, u: b.u });
-        match meet(a, b) {
-            Some(p) => Some(([p.x, p.y, 0.0], r)),
-            None => self
-                .fail_geometry(m.word, "the two lines are parallel: no one circle of this radius is meant"),
-        }
-    }
-
-    /// `BEZIER/ …`.
-    pub(super) fn bezier(&mut self, m: &Matched, name: &str) -> Option<Value> {
-        let points: Vec<Point2> = m
-            .all("control point")
-            .filter_map(|f| match f.typed {
-                Typed::Vector(v) => Some(Point2::new(v.v[0], v.v[1])),
-                _ => None,
-            })
-            .collect();
-        let count = points.len();
-        let curve: Option<CurveRef> = if m.word("chain").is_some() {
-            if count % 3 != 1 {
-                let message = format!("a chain of cubics has 3 m + 1 control points, and these are {count}");
-                self.report(Diagnostic::new(&semantics::OUT_OF_RANGE, m.span("chain"), message));
-                return None;
-            }
-            bezier_chain(&points).ok().map(|c| Arc::new(c) as CurveRef)
-        } else {
-            Bezier::new(points).map(|b| Arc::new(b) as CurveRef)
-        };
-        match curve {
-            Some(curve) => Some(Value::Entity(Entity::Curve(self.add_curve(name, curve)))),
-            None => {
-                self.fail_geometry(m.word, "all control points are the same, or there are too many of them")
-            }
-        }
-    }
-
-    fn add_curve(&mut self, name: &str, curve: CurveRef) -> Handle<CurveEntity> {
+    /// A curve of the program.
+    pub(super) fn add_curve(&mut self, name: &str, curve: CurveRef) -> Handle<CurveEntity> {
         let origin = self.origin(self.here);
         self.program.curves.push(CurveEntity { name: name.to_owned(), curve, origin })
     }
 }
 
-fn ray_of(line: &LineValue) -> Ray {
+/// The unit vector with this rise per run.
+fn sloping(slope: f64) -> Vec2 {
+    Vec2::new(1.0, slope).normalize()
+}
+
+/// The point of an axis, the Y axis if none is said.
+fn intercept(m: &Matched) -> Option<Point2> {
+    let at = m.number("intercept")?;
+    Some(if m.word("axis") == Some("XAXIS") { Point2::new(at, 0.0) } else { Point2::new(0.0, at) })
+}
+
+fn centre_of(circle: &CircleValue) -> Point2 {
+    Point2::new(circle.centre[0], circle.centre[1])
+}
+
+/// A line as a ray.
+pub(super) fn ray_of(line: &LineValue) -> Ray {
     let d = Vec2::new(line.to[0] - line.from[0], line.to[1] - line.from[1]);
     Ray { p: Point2::new(line.from[0], line.from[1]), u: d / hypot(d.x, d.y) }
 }
 
-fn direction(angle: f64) -> Vec2 {
-    let (sin, cos) = math::sin_cos(angle);
+/// The unit vector at an angle in degrees.
+pub(super) fn direction(degrees: f64) -> Vec2 {
+    let (sin, cos) = sin_cos_degrees(degrees);
     Vec2::new(cos, sin)
 }
 
-fn meet(a: Ray, b: Ray) -> Option<Point2> {
+/// Where two lines meet, unless they are parallel.
+pub(super) fn meet(a: Ray, b: Ray) -> Option<Point2> {
     let determinant = cross(a.u, b.u);
     (determinant.abs() > TOUCH).then(|| a.p + a.u * (cross(b.p - a.p, b.u) / determinant))
 }
 
-fn line_circle(ray: Ray, circle: &CircleValue) -> Vec<Point2> {
-    let centre = Point2::new(circle.centre[0], circle.centre[1]);
+/// Where a line meets a circle: no, one or two points.
+pub(super) fn line_circle(ray: Ray, centre: Point2, radius: f64) -> Vec<Point2> {
     let foot = ray.p + ray.u * (centre - ray.p).dot(&ray.u);
     let distance = (foot - centre).norm();
-    let scale = circle.radius * TOUCH;
-    if distance > circle.radius + scale {
+    let scale = radius * TOUCH;
+    if distance > radius + scale {
         return Vec::new();
     }
-    let half = (circle.radius * circle.radius - distance * distance).max(0.0).sqrt();
+    let half = (radius * radius - distance * distance).max(0.0).sqrt();
     if half <= scale { vec![foot] } else { vec![foot - ray.u * half, foot + ray.u * half] }
 }
 
-fn circle_circle(a: &CircleValue, b: &CircleValue) -> Vec<Point2> {
-    let (pa, pb) = (Point2::new(a.centre[0], a.centre[1]), Point2::new(b.centre[0], b.centre[1]));
-    let d = pb - pa;
+/// Where two circles, each by centre and radius, meet: no, one or two points.
+pub(super) fn circle_circle((a, ra): (Point2, f64), (b, rb): (Point2, f64)) -> Vec<Point2> {
+    let d = b - a;
     let distance = hypot(d.x, d.y);
     if distance == 0.0 {
         return Vec::new();
     }
     let u = d / distance;
-    let along = (distance * distance + a.radius * a.radius - b.radius * b.radius) / (2.0 * distance);
+    let along = (distance * distance + ra * ra - rb * rb) / (2.0 * distance);
     // The common chord, cut with the first circle.
-    line_circle(Ray { p: pa + u * along, u: left(u) }, a)
+    line_circle(Ray { p: a + u * along, u: left(u) }, a, ra)
 }
 
 /// The point that the modifier means; `None` when it does not decide.
-fn pick(points: &[Point2], word: &str) -> Option<Point2> {
+pub(super) fn pick(points: &[Point2], word: &str) -> Option<Point2> {
     let key = |p: &Point2| if word.starts_with('X') { p.x } else { p.y };
     let (first, second) = (points.first()?, points.get(1));
     let Some(second) = second else { return Some(*first) };

@@ -22,3 +22,7 @@ pub const MESSAGES: usize = 500;
 pub const CAMS: usize = 1000;
 /// Rows of a table of lifts.
 pub const TABLE_ROWS: usize = 100_000;
+/// Points of a pattern.
+pub const PATTERN_POINTS: usize = 100_000;
+/// Elements of a subscripted name in one argument.
+pub const SUBSCRIPT_RUN: i64 = 100_000;

@@ -63,6 +63,11 @@ impl Analyser<'_> {
                 "LENGTH" => Some(length(TAU * circle.radius)),
                 _ => component(Vector { v: circle.centre, dim: Dim::LENGTH }, name),
             },
+            Value::Entity(Entity::Plane(plane)) => Some(match name {
+                "NORMAL" => Value::Vector(Vector { v: plane.normal, dim: Dim::NONE }),
+                _ => length(plane.distance),
+            }),
+            Value::Entity(Entity::Pattern(points)) => Some(Value::bare(math::count(points.len()))),
             Value::Entity(Entity::Follower(f)) => match name {
                 "RADIUS" => Some(length(f.roller.unwrap_or(0.0))),
                 "OFFSET" => Some(length(f.offset)),

@@ -15,8 +15,11 @@ mod arguments;
 mod arithmetic;
 mod blocks;
 mod cam;
+mod circles;
+mod curves;
 mod cutter;
 mod declare;
+mod elements;
 mod expression;
 mod forms;
 mod functions;
@@ -31,6 +34,8 @@ mod motion;
 mod moves;
 mod operation;
 mod parameter;
+mod patterns;
+mod planes;
 mod process;
 mod report;
 mod run;
@@ -38,6 +43,7 @@ mod scope;
 mod slots;
 mod table;
 mod tokens;
+mod transform;
 mod value;
 
 use report::{Call, Report};
@@ -215,5 +221,7 @@ impl<'a> Analyser<'a> {
     }
 }
 
+#[cfg(test)]
+mod definitions_tests;
 #[cfg(test)]
 mod tests;

@@ -23,13 +23,31 @@ impl Analyser<'_> {
     pub(super) fn from(&mut self, m: &Matched) {
         let Some(p) = Self::target(m) else { return };
         self.state.position = Some(p);
-        self.step(StepKind::From(Point3::from(p)));
+        let p = self.transformed(p);
+        self.step(StepKind::From(p));
     }
 
     pub(super) fn goto(&mut self, m: &Matched, span: Span) {
+        if m.form == "pattern" {
+            return self.goto_pattern(m);
+        }
         let Some(p) = Self::target(m) else { return };
         self.feed_of_move(m, span);
         self.move_to(p, m.word);
+    }
+
+    /// To every point of a pattern; `RAPID` before it counts for the first.
+    fn goto_pattern(&mut self, m: &Matched) {
+        let Some(stops) = self.stops(m) else { return self.state.forget() };
+        let mut raise = None;
+        for stop in stops {
+            if let (Some(height), Some(from)) = (raise, self.state.position) {
+                self.move_to([from[0], from[1], from[2] + height], m.word);
+                self.move_to([stop.point[0], stop.point[1], stop.point[2] + height], m.word);
+            }
+            self.move_to(stop.point, m.word);
+            raise = stop.raised;
+        }
     }
 
     pub(super) fn godlta(&mut self, m: &Matched, span: Span) {
@@ -83,7 +101,13 @@ impl Analyser<'_> {
             self.needs_feed("a move at feed", at);
         }
         self.state.position = Some(p);
-        self.step(StepKind::Goto { to: Point3::from(p), rapid });
+        let to = self.transformed(p);
+        self.step(StepKind::Goto { to, rapid });
+    }
+
+    /// A point of motion after `TRACUT`.
+    fn transformed(&self, p: [f64; 3]) -> Point3 {
+        Point3::from(self.state.transform.as_ref().map_or(p, |(map, _)| map.point(p)))
     }
 
     /// Reports that a cut has no cutter.

@@ -30,6 +30,15 @@ impl Analyser<'_> {
         let label = command.label.as_ref().map(|t| &t.name);
         let free = label.is_none_or(|name| self.may_declare(name));
         let name = label.map(|n| n.text.clone());
+        let transformed = self.state.transform.as_ref().map(|(_, at)| *at);
+        if let Some(at) = transformed {
+            let message = format!("{} cannot be carried out under TRACUT yet", statement.word);
+            self.report(
+                Diagnostic::new(&codes::NOT_YET, command.word.span, message)
+                    .label(at, "the transformation begins here")
+                    .help("write `TRACUT/ NOMORE` before it"),
+            );
+        }
         if let Some(m) = self.arguments(statement, command) {
             match statement.word {
                 "ROUGH" => self.rough(&m, name),

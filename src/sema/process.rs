@@ -14,6 +14,7 @@ use crate::units::{Dim, LengthUnit, Quantity, number, tidy};
 use super::Analyser;
 use super::matched::{Matched, Typed};
 use super::scope::{Array, Binding, BindingKind};
+use super::transform::Transform;
 use super::value::{Entity, Value};
 
 /// A modal setting.
@@ -63,6 +64,8 @@ pub(super) struct State {
     pub position: Option<[f64; 3]>,
     /// A statement that failed may have moved the cutter.
     pub lost: bool,
+    /// `TRACUT`, and where it was given.
+    pub transform: Option<(Rc<Transform>, Span)>,
     /// `LOADTL/ n` before the cutter of that number.
     pub pending_number: Option<u32>,
     /// The last stock declared, for the depth of operations.
@@ -91,6 +94,7 @@ impl Default for State {
             rapid: false,
             position: None,
             lost: false,
+            transform: None,
             pending_number: None,
             stock: None,
         }
@@ -319,6 +323,13 @@ impl Analyser<'_> {
             _ => self.state.band = Band { into: 0.0, out: value },
         }
         self.state.band_at = Some(span);
+    }
+
+    pub(super) fn tracut(&mut self, m: &Matched, span: Span) {
+        self.state.transform = match m.entity("matrix") {
+            Some(Entity::Matrix(matrix)) => Some((matrix.clone(), span)),
+            _ => None,
+        };
     }
 
     pub(super) fn thick(&mut self, m: &Matched) {

@@ -5,7 +5,7 @@ use crate::diag::{Diagnostic, did_you_mean};
 use crate::geom::motion::Law;
 use crate::source::Span;
 use crate::units::{Dim, Quantity, number};
-use crate::vocab::{Kind, Range, Slot, Statement};
+use crate::vocab::{EntityKind, Kind, Range, Slot, Statement};
 
 use super::Analyser;
 use super::arithmetic::article;
@@ -80,19 +80,23 @@ impl Analyser<'_> {
                 self.quantity(statement, word, slot, (*q, token.span), fits)
             }
             (Value::Number(q), Kind::Any) => Ok(Typed::Quantity(*q)),
-            (Value::Vector(v), Kind::Point) => match v.land(Dim::LENGTH, self.unit()) {
-                Some(landed) => {
-                    self.note_bare(*v, token.span);
-                    Ok(Typed::Vector(landed))
+            (Value::Vector(v), Kind::Declared(EntityKind::Vector)) => Ok(Typed::Vector(*v)),
+            (Value::Vector(v), Kind::Point | Kind::Declared(_) | Kind::PointOrPattern) => {
+                match v.land(Dim::LENGTH, self.unit()) {
+                    Some(landed) => {
+                        self.note_bare(*v, token.span);
+                        Ok(Typed::Vector(landed))
+                    }
+                    None => Err(Box::new(self.wrong_dimension(
+                        statement,
+                        word,
+                        slot,
+                        (Quantity::new(v.v[0], v.dim), token.span),
+                    ))),
                 }
-                None => Err(Box::new(self.wrong_dimension(
-                    statement,
-                    word,
-                    slot,
-                    (Quantity::new(v.v[0], v.dim), token.span),
-                ))),
-            },
+            }
             (Value::Vector(v), Kind::Vector) => Ok(Typed::Vector(*v)),
+            (Value::Entity(entity), Kind::PointOrPattern) => Ok(Typed::Entity(entity.clone())),
             (Value::Entity(entity), Kind::Entity(kinds)) if kinds.contains(&entity.kind()) => {
                 Ok(Typed::Entity(entity.clone()))
             }

@@ -2,11 +2,12 @@
 
 use crate::geom::motion::Law;
 use crate::source::Span;
-use crate::syntax::ast::{Arg, ArgKind, Expr, ExprKind, Name};
-use crate::vocab::{self, EntityKind, Item, Kind, Statement};
+use crate::syntax::ast::{Arg, ArgKind, Command, Expr, ExprKind, Name};
+use crate::vocab::{self, EntityKind, Item, Kind, Statement, Usage};
 
 use super::Analyser;
-use super::value::Value;
+use super::scope::{BindingKind, Element};
+use super::value::{Entity, Value};
 
 /// One argument.
 #[derive(Debug, Clone)]
@@ -17,6 +18,8 @@ pub(super) struct Token<'c> {
     pub name: Option<&'c Name>,
     /// What.
     pub kind: TokenKind<'c>,
+    /// What it was declared as, if it is a declared thing and nothing calculated.
+    pub declared: Option<EntityKind>,
 }
 
 /// What an argument is.
@@ -49,6 +52,10 @@ impl Token<'_> {
         match &self.kind {
             TokenKind::Word(word) => format!("the word {word}"),
             TokenKind::Unknown => "an unknown name".into(),
+            TokenKind::Value(Value::Vector(_)) => match self.declared {
+                Some(kind) => kind.name().into(),
+                None => "a calculated point or vector".into(),
+            },
             TokenKind::Value(value) => value.kind_name(),
             TokenKind::Binding(name, _) => format!("`{} = …`", name.text),
         }
@@ -62,6 +69,9 @@ impl Token<'_> {
             (TokenKind::Word(word), Kind::Law) => is_law(word),
             (TokenKind::Word(_), _) => false,
             (TokenKind::Unknown | TokenKind::Value(Value::Poison), _) => true,
+            (TokenKind::Value(value), Kind::Declared(kind)) => {
+                matches!(value, Value::Vector(_)) && self.declared == Some(kind)
+            }
             (TokenKind::Value(value), kind) => value_fits(value, kind),
         }
     }
@@ -73,6 +83,7 @@ fn value_fits(value: &Value, kind: Kind) -> bool {
             matches!(value, Value::Number(_))
         }
         Kind::Point | Kind::Vector => matches!(value, Value::Vector(_)),
+        Kind::PointOrPattern => matches!(value, Value::Vector(_) | Value::Entity(Entity::Pattern(_))),
         Kind::Entity(kinds) => matches!(value, Value::Entity(e) if kinds.contains(&e.kind())),
         Kind::Contour => match value {
             Value::Entity(e) => is_contour(e.kind()),
@@ -80,7 +91,7 @@ fn value_fits(value: &Value, kind: Kind) -> bool {
             _ => false,
         },
         Kind::Text => matches!(value, Value::Text(_)),
-        Kind::Law | Kind::Name | Kind::Binding => false,
+        Kind::Law | Kind::Name | Kind::Binding | Kind::Declared(_) => false,
     }
 }
 
@@ -106,12 +117,34 @@ fn takes_laws(statement: &Statement) -> bool {
 }
 
 impl Analyser<'_> {
-    /// The arguments of `statement`; mistakes inside expressions are reported and give poison.
+    /// The arguments of `statement`; mistakes inside expressions are reported and give poison. Several elements
+    /// of a subscripted name (`P(ALL)`) become several arguments.
     pub(super) fn tokens<'c>(&mut self, statement: &'static Statement, args: &'c [Arg]) -> Vec<Token<'c>> {
-        args.iter().map(|arg| self.token(statement, arg)).collect()
+        let mut tokens = Vec::with_capacity(args.len());
+        for arg in args {
+            match self.several(arg) {
+                Some(elements) => tokens.extend(elements.into_iter().map(|element| Token {
+                    span: arg.span,
+                    name: None,
+                    declared: element.kind,
+                    kind: as_token(element.value),
+                })),
+                None => tokens.push(self.token(statement, arg)),
+            }
+        }
+        tokens
+    }
+
+    /// The elements that `P(ALL)` or `P(2, THRU, 5)` stands for; `None` for everything else.
+    fn several(&mut self, arg: &Arg) -> Option<Vec<Element>> {
+        match &arg.kind {
+            ArgKind::Expr(Expr { kind: ExprKind::Apply { name, args }, .. }) => self.inclusive(name, args),
+            _ => None,
+        }
     }
 
     fn token<'c>(&mut self, statement: &'static Statement, arg: &'c Arg) -> Token<'c> {
+        let declared = self.declared_kind(arg);
         let (name, kind) = match &arg.kind {
             ArgKind::Named { name, value } => (None, TokenKind::Binding(name, value)),
             ArgKind::Nested(command) => (None, TokenKind::Value(self.nested(command))),
@@ -120,7 +153,29 @@ impl Analyser<'_> {
             }
             ArgKind::Expr(expr) => (None, as_token(self.evaluate(expr))),
         };
-        Token { span: arg.span, name, kind }
+        Token { span: arg.span, name, kind, declared }
+    }
+
+    /// What an argument was declared as: by its name, by the word of its definition, as a literal point.
+    fn declared_kind(&self, arg: &Arg) -> Option<EntityKind> {
+        let expr = match &arg.kind {
+            ArgKind::Nested(command) => return declares(command),
+            ArgKind::Named { .. } => return None,
+            ArgKind::Expr(expr) => expr,
+        };
+        match &expr.kind {
+            ExprKind::Tuple(_) => Some(EntityKind::Point),
+            ExprKind::Nested(command) => declares(command),
+            ExprKind::Name(name) => match self.scope.get(&name.upper()).map(|b| &b.kind) {
+                Some(BindingKind::Entity(kind, _)) => Some(*kind),
+                _ => None,
+            },
+            ExprKind::Apply { name, .. } => match self.scope.get(&name.upper()).map(|b| &b.kind) {
+                Some(BindingKind::Array(array)) => array.items.values().find_map(|e| e.kind),
+                _ => None,
+            },
+            _ => None,
+        }
     }
 
     /// A word of the statement comes before a name of the user's; a name before another word of the language.
@@ -134,6 +189,13 @@ impl Analyser<'_> {
             return as_token(self.bound_value(name, &binding));
         }
         if vocab::is_word(&upper) { TokenKind::Word(upper) } else { TokenKind::Unknown }
+    }
+}
+
+fn declares(command: &Command) -> Option<EntityKind> {
+    match vocab::find(&command.word.text)?.usage {
+        Usage::Declares(kind) | Usage::DeclaresOrActs(kind) => Some(kind),
+        _ => None,
     }
 }
 

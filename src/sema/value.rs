@@ -9,6 +9,8 @@ use crate::source::Span;
 use crate::units::{Dim, LengthUnit, Quantity, number};
 use crate::vocab::EntityKind;
 
+use super::transform::Transform;
+
 /// Three components of one dimension: points and vectors. A point is the vector from the origin.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Vector {
@@ -96,6 +98,12 @@ pub enum Entity {
     Circle(Rc<CircleValue>),
     /// Another curve.
     Curve(Handle<CurveEntity>),
+    /// A plane.
+    Plane(Rc<PlaneValue>),
+    /// A transformation.
+    Matrix(Rc<Transform>),
+    /// Points in order, mm.
+    Pattern(Rc<[[f64; 3]]>),
     /// A follower.
     Follower(Rc<FollowerValue>),
     /// A motion.
@@ -118,6 +126,9 @@ impl Entity {
             Entity::Line(_) => EntityKind::Line,
             Entity::Circle(_) => EntityKind::Circle,
             Entity::Curve(_) => EntityKind::Curve,
+            Entity::Plane(_) => EntityKind::Plane,
+            Entity::Matrix(_) => EntityKind::Matrix,
+            Entity::Pattern(_) => EntityKind::Pattern,
             Entity::Follower(_) => EntityKind::Follower,
             Entity::Motion(_) => EntityKind::Motion,
             Entity::Cam(_) => EntityKind::Cam,
@@ -148,6 +159,15 @@ pub struct CircleValue {
     pub radius: f64,
     /// Its curve in the IR.
     pub curve: Handle<CurveEntity>,
+}
+
+/// A plane: the points p with normal · p = distance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlaneValue {
+    /// Unit normal.
+    pub normal: [f64; 3],
+    /// Distance from the origin along the normal, mm.
+    pub distance: f64,
 }
 
 /// A follower as declared; lengths in mm.

@@ -1,27 +1,44 @@
-//! Points, vectors, lines, circles, curves.
+//! Points, vectors, lines, circles.
 
 use super::{
-    ANGLE, Choice, Choices, EntityKind, Form, Group, Item, Kind, LENGTH, Member, NOT_NEGATIVE, POSITIVE,
-    Statement, Usage, choices, form, member, optional, slot, value, word,
+    ANGLE, Choice, EntityKind, Form, Group, Item, Kind, LENGTH, Member, NOT_NEGATIVE, POSITIVE, Range,
+    Statement, Usage, form, member, optional, slot, value, word,
 };
 
-const LARGER: &[Choice] = &[
+pub(super) const LARGER: &[Choice] = &[
     word("XLARGE", "the one with the larger x"),
     word("XSMALL", "the one with the smaller x"),
     word("YLARGE", "the one with the larger y"),
     word("YSMALL", "the one with the smaller y"),
 ];
-const INTOF: Item = Item::Word("intof", &[word("INTOF", "intersection of")]);
+pub(super) const INTOF: Item = Item::Word("intof", &[word("INTOF", "intersection of")]);
 const CENTER: Item = Item::Word("center", &[word("CENTER", "centre")]);
 const RADIUS: Item = Item::Word("radius", &[word("RADIUS", "radius")]);
 const TANTO: Item = Item::Word("tanto", &[word("TANTO", "tangent to")]);
 const ATANGL: Item = Item::Word("atangl", &[word("ATANGL", "at an angle to the X axis, counter-clockwise")]);
-const PARLEL: Item = Item::Word("parlel", &[word("PARLEL", "parallel to")]);
-const PERPTO: Item = Item::Word("perpto", &[word("PERPTO", "perpendicular to")]);
+pub(super) const PARLEL: Item = Item::Word("parlel", &[word("PARLEL", "parallel to")]);
+pub(super) const PERPTO: Item = Item::Word("perpto", &[word("PERPTO", "perpendicular to")]);
+pub(super) const CANON: Item = Item::Word("canon", &[word("CANON", "canonical form")]);
+const SLOPE: Item = Item::Word("slope", &[word("SLOPE", "slope: rise per run")]);
+const INTERC: Item = Item::Word("interc", &[word("INTERC", "intercept on an axis")]);
+const AXES: &[Choice] = &[word("XAXIS", "the X axis"), word("YAXIS", "the Y axis")];
+const IN_OUT: &[Choice] = &[word("IN", "inside the circle"), word("OUT", "outside the circle")];
+const PLANES: &[Choice] = &[
+    word("XYPLAN", "in the XY plane, from X"),
+    word("YZPLAN", "in the YZ plane, from Y"),
+    word("ZXPLAN", "in the ZX plane, from Z"),
+];
+const BARE: Kind = Kind::Number(crate::units::Dim::NONE, Range::Any);
+const PLANE_ITEM: Item = value("plane", Kind::Entity(&[EntityKind::Plane]), "plane");
+const SECOND_PLANE: Item = value("second", Kind::Entity(&[EntityKind::Plane]), "plane");
+const SECOND_LINE: Item = value("second", Kind::Entity(&[EntityKind::Line]), "line");
+const SECOND_CIRCLE: Item = value("second", Kind::Entity(&[EntityKind::Circle]), "circle");
+const R_ITEM: Item = value("r", POSITIVE, "radius");
+const POLAR: Item = Item::Word("plane", PLANES);
 const XYPLAN: Item = Item::Word("plane", &[word("XYPLAN", "in the XY plane")]);
 const LINE_ITEM: Item = value("line", Kind::Entity(&[EntityKind::Line]), "line");
-const CIRCLE_ITEM: Item = value("circle", Kind::Entity(&[EntityKind::Circle]), "circle");
-const POINT_ITEM: Item = value("point", Kind::Point, "point");
+pub(super) const CIRCLE_ITEM: Item = value("circle", Kind::Entity(&[EntityKind::Circle]), "circle");
+pub(super) const POINT_ITEM: Item = value("point", Kind::Point, "point");
 const SIDES: &[Choice] =
     &[word("LEFT", "on the left, seen along the line's direction"), word("RIGHT", "on the right")];
 const LINE_OR_CIRCLE: Kind = Kind::Entity(&[EntityKind::Line, EntityKind::Circle]);
@@ -34,12 +51,7 @@ const POINT: &[Form] = &[
         &[],
     ),
     form("point", "a point value such as `P1 + V1`", &[POINT_ITEM], &[]),
-    form(
-        "lines",
-        "intersection of two lines",
-        &[INTOF, LINE_ITEM, value("second", Kind::Entity(&[EntityKind::Line]), "line")],
-        &[],
-    ),
+    form("lines", "intersection of two lines", &[INTOF, LINE_ITEM, SECOND_LINE], &[]),
     form(
         "circles",
         "intersection with a circle",
@@ -63,7 +75,7 @@ const POINT: &[Form] = &[
         "polar coordinates",
         &[
             Item::Word("polar", &[word("RTHETA", "radius, angle")]),
-            XYPLAN,
+            POLAR,
             value("r", LENGTH, "radius"),
             value("angle", ANGLE, "angle"),
         ],
@@ -74,10 +86,31 @@ const POINT: &[Form] = &[
         "polar coordinates",
         &[
             Item::Word("polar", &[word("THETAR", "angle, radius")]),
-            XYPLAN,
+            POLAR,
             value("angle", ANGLE, "angle"),
             value("r", LENGTH, "radius"),
         ],
+        &[],
+    ),
+    form(
+        "planes",
+        "intersection of three planes",
+        &[INTOF, PLANE_ITEM, SECOND_PLANE, value("third", Kind::Entity(&[EntityKind::Plane]), "plane")],
+        &[],
+    ),
+    form(
+        "of pattern",
+        "a point of a pattern, counted from 1",
+        &[
+            value("pattern", Kind::Entity(&[EntityKind::Pattern]), "pattern"),
+            value("which", Kind::Count(1, 1_000_000), "which point"),
+        ],
+        &[],
+    ),
+    form(
+        "canonical",
+        "by its coordinates",
+        &[CANON, value("x", LENGTH, "x"), value("y", LENGTH, "y"), value("z", LENGTH, "z")],
         &[],
     ),
 ];
@@ -147,6 +180,19 @@ const LINE: &[Form] = &[
         ],
         &[],
     ),
+    form(
+        "coordinates in space",
+        "through two points by coordinates; seen along Z",
+        &[
+            value("x1", LENGTH, "x of the first point"),
+            value("y1", LENGTH, "y of the first point"),
+            value("z1", LENGTH, "z of the first point"),
+            value("x2", LENGTH, "x of the second point"),
+            value("y2", LENGTH, "y of the second point"),
+            value("z2", LENGTH, "z of the second point"),
+        ],
+        &[],
+    ),
     form("points", "through two points", &[POINT_ITEM, value("to", Kind::Point, "point")], &[]),
     form(
         "angle",
@@ -156,6 +202,64 @@ const LINE: &[Form] = &[
             ATANGL,
             value("angle", ANGLE, "angle"),
             Item::Optional(slot("line", Kind::Entity(&[EntityKind::Line]), "line the angle counts from")),
+        ],
+        &[],
+    ),
+    form(
+        "angle to axis",
+        "through a point at an angle to an axis",
+        &[POINT_ITEM, ATANGL, value("angle", ANGLE, "angle"), Item::Word("axis", AXES)],
+        &[],
+    ),
+    form(
+        "slope",
+        "through a point with a slope",
+        &[POINT_ITEM, SLOPE, value("slope", BARE, "rise per run")],
+        &[],
+    ),
+    form(
+        "angle intercept",
+        "at an angle to the X axis, through a point of the Y axis (or of the axis said)",
+        &[
+            ATANGL,
+            value("angle", ANGLE, "angle"),
+            INTERC,
+            value("intercept", LENGTH, "where it meets the axis"),
+        ],
+        &[],
+    ),
+    form(
+        "angle intercept axis",
+        "at an angle to the X axis, through a point of the axis said",
+        &[
+            ATANGL,
+            value("angle", ANGLE, "angle"),
+            INTERC,
+            Item::Word("axis", AXES),
+            value("intercept", LENGTH, "where it meets the axis"),
+        ],
+        &[],
+    ),
+    form(
+        "slope intercept",
+        "with a slope, through a point of the Y axis",
+        &[
+            SLOPE,
+            value("slope", BARE, "rise per run"),
+            INTERC,
+            value("intercept", LENGTH, "where it meets the axis"),
+        ],
+        &[],
+    ),
+    form(
+        "slope intercept axis",
+        "with a slope, through a point of the axis said",
+        &[
+            SLOPE,
+            value("slope", BARE, "rise per run"),
+            INTERC,
+            Item::Word("axis", AXES),
+            value("intercept", LENGTH, "where it meets the axis"),
         ],
         &[],
     ),
@@ -174,7 +278,7 @@ const LINE: &[Form] = &[
             CIRCLE_ITEM,
             Item::Word("second side", SIDES),
             TANTO,
-            value("second", Kind::Entity(&[EntityKind::Circle]), "circle"),
+            SECOND_CIRCLE,
         ],
         &[],
     ),
@@ -188,8 +292,24 @@ const LINE: &[Form] = &[
     form("perpendicular", "through a point, perpendicular to a line", &[POINT_ITEM, PERPTO, LINE_ITEM], &[]),
     form(
         "axis",
-        "an axis",
-        &[Item::Word("axis", &[word("XAXIS", "the X axis"), word("YAXIS", "the Y axis")])],
+        "an axis, or parallel to it: y (or x) of all its points",
+        &[
+            Item::Word("axis", AXES),
+            optional("distance", LENGTH, "y of a line along X, x of a line along Y; 0 without it"),
+        ],
+        &[],
+    ),
+    form("planes", "intersection of two planes, seen along Z", &[INTOF, PLANE_ITEM, SECOND_PLANE], &[]),
+    form(
+        "canonical",
+        "a x + b y + c z = d, with c = 0; the line runs with (a, b) on its right",
+        &[
+            CANON,
+            value("a", BARE, "a"),
+            value("b", BARE, "b"),
+            value("c", BARE, "c"),
+            value("d", LENGTH, "d"),
+        ],
         &[],
     ),
 ];
@@ -254,25 +374,81 @@ const CIRCLE: &[Form] = &[
             Item::Word("which", LARGER),
             LINE_ITEM,
             Item::Word("second which", LARGER),
-            value("second", Kind::Entity(&[EntityKind::Line]), "line"),
+            SECOND_LINE,
             RADIUS,
             value("r", POSITIVE, "radius"),
         ],
         &[],
     ),
+    form(
+        "three lines",
+        "tangent to three lines",
+        &[
+            Item::Word("which", LARGER),
+            LINE_ITEM,
+            Item::Word("second which", LARGER),
+            SECOND_LINE,
+            Item::Word("third which", LARGER),
+            value("third", Kind::Entity(&[EntityKind::Line]), "line"),
+        ],
+        &[],
+    ),
+    form(
+        "line and point",
+        "tangent to a line, through a point; of the two, the one with this centre",
+        &[TANTO, LINE_ITEM, Item::Word("which", LARGER), POINT_ITEM, RADIUS, R_ITEM],
+        &[],
+    ),
+    form(
+        "line and circle",
+        "tangent to a line (on the side said) and a circle; of the two, the one with this centre",
+        &[
+            Item::Word("which", LARGER),
+            LINE_ITEM,
+            Item::Word("second which", LARGER),
+            Item::Word("touch", IN_OUT),
+            CIRCLE_ITEM,
+            RADIUS,
+            R_ITEM,
+        ],
+        &[],
+    ),
+    form(
+        "two circles",
+        "tangent to two circles; of the two, the one with this centre",
+        &[
+            Item::Word("which", LARGER),
+            Item::Word("touch", IN_OUT),
+            CIRCLE_ITEM,
+            Item::Word("second touch", IN_OUT),
+            SECOND_CIRCLE,
+            RADIUS,
+            R_ITEM,
+        ],
+        &[],
+    ),
+    form(
+        "two points",
+        "through two points; of the two, the one with this centre",
+        &[Item::Word("which", LARGER), POINT_ITEM, value("second", Kind::Point, "point"), RADIUS, R_ITEM],
+        &[],
+    ),
+    form(
+        "canonical",
+        "centre, axis (along Z), radius",
+        &[
+            CANON,
+            value("x", LENGTH, "x of the centre"),
+            value("y", LENGTH, "y of the centre"),
+            value("z", LENGTH, "z of the centre"),
+            value("i", BARE, "x of the axis"),
+            value("j", BARE, "y of the axis"),
+            value("k", BARE, "z of the axis"),
+            R_ITEM,
+        ],
+        &[],
+    ),
 ];
-
-const CONTROL: Item = Item::Repeat(slot("control point", Kind::Point, "control point"), 3, 10_000);
-const CHAIN: Choices =
-    choices("chain", &[word("CHAIN", "a chain of cubics: 3 m + 1 points")], "one curve of degree points - 1");
-
-const BEZIER: &[Form] = &[form("bezier", "by its control points", &[CONTROL], &[CHAIN])];
-const CURVE: &[Form] = &[form(
-    "bezier",
-    "by its control points",
-    &[Item::Word("kind", &[word("BEZIER", "Bezier curve")]), CONTROL],
-    &[CHAIN],
-)];
 
 const POINT_MEMBERS: &[Member] =
     &[member("X", "length", "x"), member("Y", "length", "y"), member("Z", "length", "z")];
@@ -290,7 +466,7 @@ const CIRCLE_MEMBERS: &[Member] = &[
     member("LENGTH", "length", "circumference"),
 ];
 
-const fn row(
+pub(super) const fn row(
     word: &'static str,
     kind: EntityKind,
     help: &'static str,
@@ -323,13 +499,4 @@ pub const ROWS: &[Statement] = &[
         CIRCLE,
         CIRCLE_MEMBERS,
     ),
-    row(
-        "BEZIER",
-        EntityKind::Curve,
-        "a Bezier curve in the XY plane",
-        "B1 = BEZIER/ P1, P2, P3, P4",
-        BEZIER,
-        &[],
-    ),
-    row("CURVE", EntityKind::Curve, "a curve", "B1 = CURVE/ BEZIER, P1, P2, P3, P4", CURVE, &[]),
 ];

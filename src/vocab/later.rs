@@ -17,11 +17,6 @@ const fn later(word: &'static str, help: &'static str) -> Statement {
 
 /// Rows of the table.
 pub const ROWS: &[Statement] = &[
-    later("PLANE", "a plane"),
-    later("MATRIX", "a transformation"),
-    later("PATERN", "a pattern of points"),
-    later("TABCYL", "a curve through points"),
-    later("SPLINE", "a spline through points"),
     later("NET", "a Bezier control net"),
     later("SPHERE", "a sphere"),
     later("CYLNDR", "a cylinder"),
@@ -42,7 +37,6 @@ pub const ROWS: &[Statement] = &[
     later("COMPEN", "deflection compensation"),
     later("CUSP", "height of cusps between passes"),
     later("ORIGIN", "origin of the part on the machine"),
-    later("TRACUT", "transformation of the tool path"),
     later("REFSYS", "frame of definitions"),
     later("COPY", "copies of a tool path"),
     later("INDEX", "start of a tool path to copy"),

@@ -14,6 +14,7 @@ use std::sync::LazyLock;
 use crate::units::Dim;
 
 mod cams;
+mod curves;
 mod functions;
 mod geometry;
 mod later;
@@ -21,6 +22,7 @@ mod operations;
 mod process;
 mod program;
 pub mod reference;
+mod space;
 
 pub use functions::{FUNCTIONS, Function, FunctionId};
 pub use program::STRUCTURE_WORDS;
@@ -108,6 +110,12 @@ pub enum EntityKind {
     Circle,
     /// `BEZIER` and other free curves
     Curve,
+    /// `PLANE`
+    Plane,
+    /// `MATRIX`
+    Matrix,
+    /// `PATERN`
+    Pattern,
     /// `FOLLOW`
     Follower,
     /// `MOTION`
@@ -132,6 +140,9 @@ impl EntityKind {
             EntityKind::Line => "a line",
             EntityKind::Circle => "a circle",
             EntityKind::Curve => "a curve",
+            EntityKind::Plane => "a plane",
+            EntityKind::Matrix => "a matrix",
+            EntityKind::Pattern => "a pattern",
             EntityKind::Follower => "a follower",
             EntityKind::Motion => "a motion",
             EntityKind::Cam => "a cam",
@@ -149,6 +160,9 @@ impl EntityKind {
             EntityKind::Line => "LINE",
             EntityKind::Circle => "CIRCLE",
             EntityKind::Curve => "BEZIER",
+            EntityKind::Plane => "PLANE",
+            EntityKind::Matrix => "MATRIX",
+            EntityKind::Pattern => "PATERN",
             EntityKind::Follower => "FOLLOW",
             EntityKind::Motion => "MOTION",
             EntityKind::Cam => "CAM",
@@ -264,6 +278,10 @@ pub enum Kind {
     Vector,
     /// A named thing of one of these kinds.
     Entity(&'static [EntityKind]),
+    /// A point or vector that was declared as just that; a calculated one is neither.
+    Declared(EntityKind),
+    /// A point, or a pattern of points.
+    PointOrPattern,
     /// A line, circle or curve, a cam, or a chain `(A, B, …)` of curves.
     Contour,
     /// A text in quotes.
@@ -348,9 +366,11 @@ const NOT_NEGATIVE: Kind = Kind::Number(Dim::LENGTH, Range::NotNegative);
 const ANGLE: Kind = Kind::Number(Dim::ANGLE, Range::Any);
 
 /// The table, by group.
-pub const TABLE: [&[Statement]; 7] = [
+pub const TABLE: [&[Statement]; 9] = [
     program::ROWS,
     geometry::ROWS,
+    curves::ROWS,
+    space::ROWS,
     cams::ROWS,
     process::ROWS,
     operations::MOTION,

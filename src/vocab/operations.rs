@@ -2,7 +2,7 @@
 
 use super::{
     Choices, EntityKind, Form, Group, Item, Kind, LENGTH, NOT_NEGATIVE, POSITIVE, Statement, Usage, choices,
-    form, optional, value, with, word,
+    form, optional, slot, value, with, word,
 };
 
 const FEED: Item = optional("feed", Kind::Feed, "feed from here on");
@@ -14,6 +14,35 @@ const TO_POINT: &[Form] = &[
         "coordinates",
         &[value("x", LENGTH, "x"), value("y", LENGTH, "y"), optional("z", LENGTH, "z; 0 without it"), FEED],
         &[],
+    ),
+    Form {
+        name: "pattern",
+        help: "to every point of a pattern",
+        lead: &[value("pattern", Kind::Entity(&[EntityKind::Pattern]), "pattern")],
+        options: PATTERN_POINTS,
+        ordered: true,
+    },
+];
+
+const WHICH: Item =
+    Item::Repeat(slot("which", Kind::Count(1, 1_000_000), "number in the pattern, from 1"), 1, 1000);
+
+const PATTERN_POINTS: &[Choices] = &[
+    choices("order", &[word("INVERS", "from the last point to the first")], "as declared"),
+    choices(
+        "count",
+        &[word("CONST", "numbers count as declared, also after INVERS")],
+        "in the order of travel",
+    ),
+    with("omit", &[word("OMIT", "points to leave out")], &[WHICH], false, "none"),
+    with("retain", &[word("RETAIN", "the only points to keep")], &[WHICH], false, "all"),
+    with("thru", &[word("THRU", "up to this one")], &[WHICH], false, ""),
+    with(
+        "avoid",
+        &[word("AVOID", "points after which the way to the next one is raised")],
+        &[value("height", POSITIVE, "how far it is raised"), WHICH],
+        false,
+        "none",
     ),
 ];
 

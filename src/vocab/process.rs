@@ -233,6 +233,15 @@ const CLEARP: &[Form] = &[
         &[],
     ),
 ];
+const TRACUT: &[Form] = &[
+    form(
+        "matrix",
+        "from here on, points of motion are transformed",
+        &[value("matrix", Kind::Entity(&[EntityKind::Matrix]), "matrix")],
+        &[],
+    ),
+    form("end", "ends it", &[Item::Word("state", &[word("NOMORE", "no transformation")])], &[]),
+];
 const DELAY: &[Form] = &[form(
     "time",
     "",
@@ -283,6 +292,7 @@ pub const ROWS: &[Statement] = &[
     row("OUTTOL", "how much may be left on the part", "OUTTOL/ 0.01", OUTTOL),
     row("TOLER", "sets OUTTOL to the value and INTOL to 0", "TOLER/ 0.01", TOLER),
     row("THICK", "stock to leave on later contours", "THICK/ 0.3", THICK),
+    row("TRACUT", "transforms the points of FROM, GOTO and GODLTA", "TRACUT/ M1", TRACUT),
     row("CLEARP", "clearance plane for travel between cuts", "CLEARP/ 5", CLEARP),
     row("DELAY", "dwells", "DELAY/ 2s", DELAY),
     row("STOP", "program stop, M0", "STOP", &[]),

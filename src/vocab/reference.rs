@@ -164,6 +164,8 @@ fn takes(slot: &Slot) -> String {
         Kind::Point => "point: a name or `(x, y[, z])`".into(),
         Kind::Vector => "vector: a name or `(x, y[, z])`".into(),
         Kind::Entity(kinds) => kinds.iter().map(|k| k.name()).collect::<Vec<_>>().join(" or "),
+        Kind::Declared(kind) => format!("{}, declared as such", kind.name().trim_start_matches("a ")),
+        Kind::PointOrPattern => "point or pattern".into(),
         Kind::Contour => "cam, line, circle, curve or chain".into(),
         Kind::Text => "text in quotes".into(),
         Kind::Law => "motion law, see below".into(),

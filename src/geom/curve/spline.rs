@@ -21,8 +21,8 @@ pub enum Ends {
     Periodic,
     /// No bending at the ends.
     Natural,
-    /// Tangent directions given at both ends (any positive length).
-    Clamped(Vec2, Vec2),
+    /// Tangent directions at the start and at the end (any positive length); without one, no bending there.
+    Clamped(Option<Vec2>, Option<Vec2>),
 }
 
 /// Why there is no spline through the points.
@@ -82,11 +82,11 @@ fn node_slopes(breaks: &[f64], nodes: &[Vec2], ends: Ends) -> Result<Vec<Vec2>, 
         Ends::Periodic => Ok(crate::geom::tridiagonal::End::Periodic),
         Ends::Natural => Ok(crate::geom::tridiagonal::End::Natural),
         Ends::Clamped(a, b) => {
-            let (la, lb) = (hypot(a.x, a.y), hypot(b.x, b.y));
-            if !(la > 0.0 && lb > 0.0) {
-                return Err(SplineError::NoTangent);
-            }
-            Ok(crate::geom::tridiagonal::End::Clamped(pick(a / la), pick(b / lb)))
+            let unit = |v: Vec2| {
+                let length = hypot(v.x, v.y);
+                if length > 0.0 { Ok(pick(v / length)) } else { Err(SplineError::NoTangent) }
+            };
+            Ok(crate::geom::tridiagonal::End::Clamped(a.map(unit).transpose()?, b.map(unit).transpose()?))
         }
     };
     let solve = |pick: fn(Vec2) -> f64| {
@@ -155,7 +155,7 @@ mod tests {
     #[test]
     fn clamped_ends_have_the_given_directions() {
         let p = [Point2::new(0.0, 0.0), Point2::new(5.0, 3.0), Point2::new(9.0, -1.0)];
-        let ends = Ends::Clamped(Vec2::new(0.0, 2.0), Vec2::new(3.0, 0.0));
+        let ends = Ends::Clamped(Some(Vec2::new(0.0, 2.0)), Some(Vec2::new(3.0, 0.0)));
         let spline = Spline::new(&p, ends).expect("three points");
         assert!((spline.at(0.0).t - Vec2::new(0.0, 1.0)).norm() < 1e-12);
         assert!((spline.at(spline.domain().1).t - Vec2::new(1.0, 0.0)).norm() < 1e-12);

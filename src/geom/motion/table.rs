@@ -44,7 +44,7 @@ impl Table {
         }
         angles.push(angles[0] + TAU);
         lifts.push(lifts[0]);
-        let end = if periodic { End::Periodic } else { End::Clamped(0.0, 0.0) };
+        let end = if periodic { End::Periodic } else { End::Clamped(Some(0.0), Some(0.0)) };
         let slopes = slopes(&angles, &lifts, end);
         Table { angles, lifts, slopes }
     }
