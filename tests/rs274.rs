@@ -20,9 +20,28 @@ const INCH: f64 = 25.4;
 enum Canonical {
     Rapid { to: Point3, c: f64 },
     Feed { to: Point3, c: f64 },
-    Arc { to: Point3, centre: Point2, turns: i32 },
+    Arc { plane: Plane, to: Point3, centre: Point2, turns: i32 },
     Dwell(f64),
     Nurbs(usize),
+}
+
+/// The plane of an arc, as it was selected.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Plane {
+    Xy,
+    Zx,
+    Yz,
+}
+
+impl Plane {
+    /// Indices of the first and second axis, and of the one across.
+    fn axes(self) -> [usize; 3] {
+        match self {
+            Plane::Xy => [0, 1, 2],
+            Plane::Zx => [2, 0, 1],
+            Plane::Yz => [1, 2, 0],
+        }
+    }
 }
 
 struct Executed {
@@ -82,6 +101,7 @@ fn alive(command: &mut Command) -> std::process::Output {
 
 fn calls(said: &str) -> Vec<Canonical> {
     let mut unit = 1.0;
+    let mut plane = Plane::Xy;
     let mut calls = Vec::new();
     for line in said.lines() {
         let Some((head, rest)) = line.split_once('(') else { continue };
@@ -91,21 +111,30 @@ fn calls(said: &str) -> Vec<Canonical> {
             unit = if inside.contains("INCHES") { INCH } else { 1.0 };
             continue;
         }
+        if name == "SELECT_PLANE" {
+            plane = match inside {
+                "CANON_PLANE_XZ" => Plane::Zx,
+                "CANON_PLANE_YZ" => Plane::Yz,
+                _ => Plane::Xy,
+            };
+            continue;
+        }
         let values: Vec<f64> = inside.split(',').filter_map(|v| v.trim().parse().ok()).collect();
-        calls.extend(call(name, &values, unit));
+        calls.extend(call(name, &values, unit, plane));
     }
     calls
 }
 
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-fn call(name: &str, v: &[f64], unit: f64) -> Option<Canonical> {
+fn call(name: &str, v: &[f64], unit: f64, plane: Plane) -> Option<Canonical> {
     let mm = |i: usize| v.get(i).map_or(0.0, |x| x * unit);
     let raw = |i: usize| v.get(i).copied().unwrap_or_default();
     Some(match name {
         "STRAIGHT_TRAVERSE" => Canonical::Rapid { to: Point3::new(mm(0), mm(1), mm(2)), c: raw(5) },
         "STRAIGHT_FEED" => Canonical::Feed { to: Point3::new(mm(0), mm(1), mm(2)), c: raw(5) },
         "ARC_FEED" => Canonical::Arc {
-            to: Point3::new(mm(0), mm(1), mm(5)),
+            plane,
+            to: in_space(plane, mm(0), mm(1), mm(5)),
             centre: Point2::new(mm(2), mm(3)),
             turns: raw(4) as i32,
         },
@@ -115,8 +144,17 @@ fn call(name: &str, v: &[f64], unit: f64) -> Option<Canonical> {
     })
 }
 
+fn in_space(plane: Plane, first: f64, second: f64, level: f64) -> Point3 {
+    let [a, b, c] = plane.axes();
+    let mut p = Point3::origin();
+    p[a] = first;
+    p[b] = second;
+    p[c] = level;
+    p
+}
+
 fn setup() -> MachineSetup {
-    MachineSetup { rotary: Some(Rotary { letter: 'C', reversed: false }), tools: Some(vec![1, 2]) }
+    MachineSetup { rotary: Some(Rotary { letter: 'C', reversed: false }), tools: Some(vec![1, 2]), ..MachineSetup::default() }
 }
 
 /// Both read the program; the events agree one by one.
@@ -145,21 +183,26 @@ fn same(ours: &TraceEvent, theirs: &Canonical, rounding: f64) -> bool {
         (EventKind::Dwell(a), Canonical::Dwell(b)) => (a - b).abs() <= ROUNDING,
         (EventKind::Move(m), Canonical::Rapid { to, c }) => m.rapid && near(m.end(), placed(to, *c)),
         (EventKind::Move(m), Canonical::Feed { to, c }) => {
-            let straight = !matches!(m.path, TracePath::Arc { .. } | TracePath::Nurbs { .. });
+            let straight = matches!(m.path, TracePath::Line { .. } | TracePath::Spiral { .. });
             straight && !m.rapid && near(m.end(), placed(to, *c))
         }
-        (EventKind::Move(m), Canonical::Arc { to, centre, turns }) => match m.path {
-            TracePath::Arc { centre: c, sweep, .. } => {
-                let whole = f64::from(turns.unsigned_abs());
-                let turn = sweep.abs() / partwright::math::TAU;
-                near(m.end(), *to)
-                    && near2(c, *centre)
-                    && (sweep > 0.0) == (*turns > 0)
-                    && turn <= whole + 1e-6
-                    && turn > whole - 1.0 - 1e-6
-            }
-            _ => false,
-        },
+        (EventKind::Move(m), Canonical::Arc { plane, to, centre, turns }) => {
+            let (sweep, c) = match m.path {
+                TracePath::Arc { centre, sweep, .. } if *plane == Plane::Xy => (sweep, centre),
+                TracePath::Tilted(arc) if arc.axis[plane.axes()[2]] == 1.0 => {
+                    let [a, b, _] = plane.axes();
+                    (arc.sweep, Point2::new(arc.centre[a], arc.centre[b]))
+                }
+                _ => return false,
+            };
+            let whole = f64::from(turns.unsigned_abs());
+            let turn = sweep.abs() / partwright::math::TAU;
+            near(m.end(), *to)
+                && near2(c, *centre)
+                && (sweep > 0.0) == (*turns > 0)
+                && turn <= whole + 1e-6
+                && turn > whole - 1.0 - 1e-6
+        }
         (EventKind::Move(m), Canonical::Nurbs(n)) => {
             matches!(&m.path, TracePath::Nurbs { points, .. } if points.len() == *n)
         }
@@ -194,6 +237,13 @@ fn both_read_the_same_motion() {
         ("comments", "(a comment) G1 (another) X11 ; the rest G1 X99\n(MSG, hello)"),
         ("nurbs", "G1 X0 Y0\nG5.2 P1 L3\nX0 Y1 P1\nX2 Y2 P1\nX2 Y0 P2\nX0 Y0 P1\nG5.3\nG1 X1"),
         ("smoothing", "G64 P0.01\nG1 X11\nG64 P0.01 Q0.002\nX12\nG61.1\nX13"),
+        ("xz", "G1 Z-1\nG18 G3 X0 Z9 I-10\nG2 X10 Z-1 K-10\nG2 X10 Z-1 I-4 K3\nG3 X4 Z5 R9 Y3\nG17"),
+        ("yz", "G19 G3 Y10 Z15 J10\nG2 Y0 Z5 K-10\nG2 J-4 K3\nG3 Y4 Z5 R9 X3\nG2 Y4 Z5 J2 X8 P3\nG17"),
+        ("drilling", "G98 G81 X1 Y2 Z-3 R2\nX4\nG99 Y6\nZ-4 X7\nR1 X8\nG80\nG0 Z5"),
+        ("cycle dwell", "G99 G82 X1 Y2 Z-3 R2 P0.5\nX4\nG89 X5 P0.25\nG85 X6\nG80\nG0 Z5"),
+        ("pecks", "G98 G83 X1 Y2 Z-5 R2 Q3 D0.5\nX5\nG73 X6 Q2 D0.25\nG80\nG0 Z5"),
+        ("below R", "G0 Z1\nG98 G81 X1 Y2 Z-3 R2\nX4\nG80\nG0 Z5"),
+        ("rows", "G91 G81 X1 Y2 Z-5 R-3 L3\nG90 G80 G0 Z5"),
         ("modal", "G1 X11\nG95 F0.1 X12\nG97 S500\nG94 F50 X13\nM5\nM3\nM7\nM8\nM9"),
     ] {
         agree(name, &program(body));
@@ -238,6 +288,12 @@ fn both_refuse_the_same() {
         "G5.2 P1 L3\nX0 Y1\nX2 Y2 P1\nG5.3",
         "S-1",
         "M7 M8",
+        "G81 X1 Z-3 R-4",
+        "G81 X1 Z-3",
+        "G83 X1 Z-3 R1",
+        "G93 G81 X1 Z-3 R1 F1",
+        "G81 X1 Z-3 R1\nG81 R2",
+        "G81 X1 C5 Z-3 R1",
     ]
     .iter()
     .enumerate()

@@ -7,7 +7,7 @@ use libfuzzer_sys::fuzz_target;
 use partwright::readback::{EventKind, MOST_FAULTS, MachineSetup, Rotary, controls, run};
 
 fuzz_target!(|data: &[u8]| {
-    let setup = MachineSetup { rotary: Some(Rotary { letter: 'C', reversed: false }), tools: None };
+    let setup = MachineSetup { rotary: Some(Rotary { letter: 'C', reversed: false }), ..MachineSetup::default() };
     for control in controls() {
         let Ok(trace) = run(data, control, &setup) else { panic!("a control of the list is not known") };
         assert!(trace.faults.len() <= MOST_FAULTS);

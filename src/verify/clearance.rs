@@ -135,6 +135,10 @@ pub(super) fn nearest_to_origin(primitive: &Primitive) -> f64 {
             let d = centre.coords.norm();
             (d - a.max(b)).max(a.min(b) - d).max(0.0)
         }
+        Primitive::Tilted { .. } => {
+            let half = primitive.at(0.5).p;
+            (half.coords.norm() - 0.5 * primitive.bounds()[0]).max(0.0)
+        }
         Primitive::Rational { bounds, .. } => {
             let first = primitive.at(0.0).p.coords.norm();
             let last = primitive.at(1.0).p.coords.norm();

@@ -46,7 +46,7 @@ fn moves(case: &Case<'_>) -> Moves {
         let counter = match (&placed.cut.path, placed.cut.rapid) {
             (_, true) => &mut moves.rapids,
             (TracePath::Line { .. }, false) => &mut moves.lines,
-            (TracePath::Arc { .. }, false) => &mut moves.arcs,
+            (TracePath::Arc { .. } | TracePath::Tilted(_), false) => &mut moves.arcs,
             (TracePath::Spiral { .. }, false) => &mut moves.spirals,
             (TracePath::Nurbs { .. }, false) => &mut moves.nurbs,
         };

@@ -148,7 +148,8 @@ pub fn prove(
 /// The machine as the lowered program declares it.
 fn setup(target: &TargetProgram) -> MachineSetup {
     let rotary = target.capabilities.rotary.map(|r| Rotary { letter: r.letter, reversed: r.reversed });
-    MachineSetup { rotary, tools: None }
+    let names = target.tools.iter().filter_map(|t| t.number.map(|n| (t.name.clone(), n)));
+    MachineSetup { rotary, tools: None, tool_names: names.collect() }
 }
 
 fn placed<'t>(trace: &'t Trace, lines: &Lines) -> Vec<Placed<'t>> {

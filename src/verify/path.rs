@@ -23,6 +23,19 @@ pub(super) enum Primitive {
         /// Angle at the start and its change, radians.
         angle: (f64, f64),
     },
+    /// An arc about an axis that is not Z, seen along Z: p = centre + (r0 + dr x) (u cos wx + v sin wx) + rise x.
+    Tilted {
+        /// Centre.
+        centre: Point2,
+        /// Radius at the start and its change, mm.
+        radius: (f64, f64),
+        /// The unit vectors across the axis, as seen.
+        frame: (Vec2, Vec2),
+        /// Sweep, radians.
+        sweep: f64,
+        /// Way along the axis, as seen.
+        rise: Vec2,
+    },
     /// Rational Bézier segment: homogeneous control points (w x, w y, w).
     Rational {
         /// Control points.
@@ -53,6 +66,17 @@ impl Primitive {
                 let radius = (r0.norm(), r1.norm() - r0.norm());
                 vec![Primitive::Polar { centre: *centre, radius, angle: (atan2(r0.y, r0.x), *sweep) }]
             }
+            TracePath::Tilted(arc) => {
+                let (r0, r1) = arc.radii();
+                let (u, v) = arc.frame();
+                vec![Primitive::Tilted {
+                    centre: arc.centre.xy(),
+                    radius: (r0, r1 - r0),
+                    frame: (u.xy(), v.xy()),
+                    sweep: arc.sweep,
+                    rise: arc.axis.xy() * arc.rise(),
+                }]
+            }
             TracePath::Spiral { radius, angle } => vec![Primitive::Polar {
                 centre: Point2::origin(),
                 radius: (radius.0, radius.1 - radius.0),
@@ -75,6 +99,13 @@ impl Primitive {
                 let a = q * (2.0 * radius.1 * w) - e * (r * w * w);
                 Jet { p: centre + e * r, v: e * radius.1 + q * (r * w), a }
             }
+            Primitive::Tilted { centre, radius, frame: (u, v), sweep, rise } => {
+                let (r, w) = (radius.0 + radius.1 * x, *sweep);
+                let (s, c) = sin_cos(w * x);
+                let (e, q) = (u * c + v * s, v * c - u * s);
+                let a = q * (2.0 * radius.1 * w) - e * (r * w * w);
+                Jet { p: centre + e * r + rise * x, v: e * radius.1 + q * (r * w) + rise, a }
+            }
             Primitive::Rational { points, .. } => super::spline::jet(points, x),
         }
     }
@@ -83,10 +114,10 @@ impl Primitive {
     pub(super) fn bounds(&self) -> [f64; 3] {
         match self {
             Primitive::Line { step, .. } => [step.norm(), 0.0, 0.0],
-            Primitive::Polar { radius, angle, .. } => {
-                let r = radius.0.abs().max((radius.0 + radius.1).abs());
-                let (dr, w) = (radius.1.abs(), angle.1.abs());
-                [dr + r * w, 2.0 * dr * w + r * w * w, 3.0 * dr * w * w + r * w * w * w]
+            Primitive::Polar { radius, angle, .. } => polar_bounds(*radius, angle.1),
+            Primitive::Tilted { radius, sweep, rise, .. } => {
+                let [first, second, third] = polar_bounds(*radius, *sweep);
+                [first + rise.norm(), second, third]
             }
             Primitive::Rational { bounds, .. } => *bounds,
         }
@@ -95,8 +126,19 @@ impl Primitive {
     /// Into how many parts it must be cut so that none turns by more than an eighth of a turn or is longer than `most` mm.
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
     pub(super) fn parts(&self, most: f64) -> usize {
-        let turn = if let Primitive::Polar { angle, .. } = self { angle.1.abs() / (TAU / 8.0) } else { 1.0 };
+        let turn = match self {
+            Primitive::Polar { angle, .. } => angle.1.abs() / (TAU / 8.0),
+            Primitive::Tilted { sweep, .. } => sweep.abs() / (TAU / 8.0),
+            Primitive::Line { .. } | Primitive::Rational { .. } => 1.0,
+        };
         let long = self.bounds()[0] / most.max(1e-6);
         turn.max(long).ceil().clamp(1.0, 4096.0) as usize
     }
+}
+
+/// Bounds on the derivatives of a polar primitive whose angle changes by `sweep`.
+fn polar_bounds(radius: (f64, f64), sweep: f64) -> [f64; 3] {
+    let r = radius.0.abs().max((radius.0 + radius.1).abs());
+    let (dr, w) = (radius.1.abs(), sweep.abs());
+    [dr + r * w, 2.0 * dr * w + r * w * w, 3.0 * dr * w * w + r * w * w * w]
 }

@@ -15,9 +15,8 @@ pub(super) fn travel(case: &Case<'_>, placed: &Placed<'_>) -> Vec<Finding> {
     if limits.iter().all(Option::is_none) {
         return Vec::new();
     }
-    let z = placed.cut.z;
     let (x, y) = extent(&placed.cut.path);
-    let ranges = [("X", x), ("Y", y), ("Z", (z.0.min(z.1), z.0.max(z.1)))];
+    let ranges = [("X", x), ("Y", y), ("Z", placed.cut.heights())];
     ranges
         .into_iter()
         .zip(limits)
@@ -49,6 +48,7 @@ fn extent(path: &TracePath) -> (Range, Range) {
         TracePath::Line { from, to } => of(&[*from, *to]),
         TracePath::Spiral { radius, .. } => ((radius.0.min(radius.1), radius.0.max(radius.1)), (0.0, 0.0)),
         TracePath::Nurbs { points, .. } => of(points),
+        TracePath::Tilted(arc) => (arc.extent(0), arc.extent(1)),
         TracePath::Arc { from, to, centre, sweep } => {
             let mut points = vec![*from, *to];
             let start = crate::math::atan2(from.y - centre.y, from.x - centre.x);

@@ -27,6 +27,9 @@ fn cut(path: TracePath) -> TraceMove {
         tool: 1,
         known: [true; 3],
         length_offset: true,
+        coolant: crate::readback::Washing::default(),
+        work_offset: 1,
+        in_cycle: false,
         path_tolerance: 0.0,
     }
 }

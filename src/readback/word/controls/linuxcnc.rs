@@ -1,12 +1,13 @@
 //! LinuxCNC, from its G-code reference and the behaviour of its interpreter.
 
-use super::FeedMode;
-use super::codes::{G, Group, M, Mode, Plane};
-use super::rules::{Frame, Rules};
+use super::super::codes::{CycleKind, G, Group, M, Mode, Plane};
+use super::super::rules::{ArcEnd, Cycles, Dwell, FeedReset, Frame, RotaryFeed, Rules, Unpointed};
+use crate::readback::FeedMode;
 
 pub(super) const RULES: Rules = Rules {
     name: "linuxcnc",
     frame: Frame::PercentPairOrEnd,
+    parentheses: true,
     semicolon_comment: true,
     comment_may_stay_open: false,
     comment_may_nest: false,
@@ -25,24 +26,37 @@ pub(super) const RULES: Rules = Rules {
     percent_allowed: true,
     lower_case: true,
     slash_anywhere: false,
+    checksum: false,
     line_limit: Some(255),
     limit_counts_all: true,
     whole_numbers: &[],
-    least_increments: false,
+    unpointed: Unpointed::Whole,
+    largest_length: None,
     largest_n: 99_999_999.0,
     largest_t: 2_147_483_647.0,
+    largest_inverse: f64::INFINITY,
     most_m: 4,
     g,
     m,
-    dwell_p: 1.0,
-    dwell_x: false,
+    dwell: &[(b'P', Dwell::Seconds)],
+    cycles: Some(&CYCLES),
     tool_change: true,
     length_offset: true,
+    length_needs_h: false,
+    work_offset: true,
+    reference_needs_axis: false,
     starts_at_rapid: false,
+    repeat_motion: false,
+    feed_modes: true,
+    feed_reset: FeedReset::EveryWord,
+    rotary_feed: RotaryFeed::LinearAxes,
     blends: true,
     radius_wins: false,
+    shaky_half_circle: false,
     arc_turns: true,
     arc_needs_end: false,
+    arc_end: ArcEnd::Spiral,
+    arc_mode_stated: false,
     largest_difference,
     arc_complaint: "Radius to end of arc differs from radius to start",
     full_circle_fuzz: 1e-6,
@@ -52,11 +66,29 @@ pub(super) const RULES: Rules = Rules {
 };
 
 /// The manual's bound, tighter than the source's: 0.5 mm, or 0.005 mm and 0.1 % of the radius.
-fn largest_difference(radius: f64) -> f64 {
+fn largest_difference(radius: f64, _inch: bool) -> f64 {
     (0.001 * radius).clamp(0.005, 0.5)
 }
 
-fn g(tenths: u16) -> Option<G> {
+/// The distance back is the setting `[RS274NGC] PARAMETER_G83_PECK_CLEARANCE`, a D word overrides it.
+pub(super) const CYCLES: Cycles = Cycles {
+    dwell: Dwell::Seconds,
+    with_dwell: &[
+        CycleKind::Dwell,
+        CycleKind::Tap { left: false },
+        CycleKind::Tap { left: true },
+        CycleKind::BoreStop,
+        CycleKind::BoreDwell,
+    ],
+    clearance: 0.254,
+    clearance_word: true,
+    return_height: false,
+    repeats: b'L',
+    needs_motion: true,
+    higher_return: true,
+};
+
+pub(super) fn g(tenths: u16) -> Option<G> {
     Some(match tenths {
         0 => G::Motion(Mode::Rapid),
         10 => G::Motion(Mode::Linear),
@@ -75,7 +107,7 @@ fn g(tenths: u16) -> Option<G> {
         430 => G::LengthOn,
         490 => G::LengthOff,
         530 => G::MachineCoordinates,
-        540 | 550 | 560 | 570 | 580 | 590 | 591 | 592 | 593 => G::WorkOffset,
+        591..=593 => G::WorkOffset(tenths - 584),
         610 | 611 => G::ExactPath,
         640 => G::Blend,
         800 => G::Motion(Mode::None),
@@ -87,15 +119,20 @@ fn g(tenths: u16) -> Option<G> {
         940 => G::Feed(FeedMode::PerMinute),
         950 => G::Feed(FeedMode::PerRevolution),
         970 => G::NoEffect(Group::Speed),
-        980 | 990 => G::NoEffect(Group::Return),
+        980 | 990 => G::Return { to_r: tenths == 990 },
         80 => G::NoEffect(Group::Other),
-        _ => return unfollowed(tenths),
+        760 => return unfollowed(tenths),
+        _ => {
+            return super::fanuc::offset(tenths)
+                .or_else(|| super::fanuc::cycle(tenths))
+                .or_else(|| unfollowed(tenths));
+        }
     })
 }
 
 fn unfollowed(tenths: u16) -> Option<G> {
     Some(G::Unfollowed(match tenths {
-        50 | 51 | 330 | 331 | 382..=385 | 730 | 740 | 760 | 810..=890 => Group::Motion,
+        50 | 51 | 330 | 331 | 382..=385 | 760 | 870 | 880 => Group::Motion,
         70 => Group::Other,
         100 | 281 | 301 | 520 | 920..=923 => Group::Once,
         410 | 411 | 420 | 421 => Group::Radius,
@@ -115,7 +152,7 @@ fn m(tenths: u16) -> Option<M> {
         40 => M::SpindleOn { clockwise: false },
         50 => M::SpindleOff,
         60 => M::ToolChange,
-        70 | 80 => M::CoolantOn,
+        70 | 80 => M::CoolantOn { mist: tenths == 70 },
         90 => M::CoolantOff,
         480 | 490 | 500 | 510 | 520 | 530 => M::NoEffect,
         190 | 600..=730 | 980 | 990 | 1000..=1990 => M::Unfollowed,

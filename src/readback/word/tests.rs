@@ -1,10 +1,11 @@
 //! Programs written by hand for each control: what they do, and what the controls say to bad ones.
 
-use super::*;
+use crate::geom::Point2;
+use crate::readback::*;
 use crate::math::{PI, TAU};
 
 fn setup() -> MachineSetup {
-    MachineSetup { rotary: Some(Rotary { letter: 'C', reversed: false }), tools: None }
+    MachineSetup { rotary: Some(Rotary { letter: 'C', reversed: false }), ..MachineSetup::default() }
 }
 
 fn trace(control: &str, text: &str) -> Trace {
@@ -49,7 +50,7 @@ fn arc(m: &TraceMove) -> (Point2, f64) {
     }
 }
 
-const LINUXCNC_START: &str = "G21 G90 G17 G94 G61\nT1 M6\nG43 H1\nG0 X10 Y0\nZ5\nS1000 M3\nF100\n";
+const LINUXCNC_START: &str = "G21 G90 G17 G94 G61 G54\nT1 M6\nG43 H1\nG0 X10 Y0\nZ5\nS1000 M3\nF100\n";
 
 fn linuxcnc(body: &str) -> String {
     format!("{LINUXCNC_START}{body}\nM30\n")
@@ -118,7 +119,8 @@ fn linuxcnc_refuses_what_it_refuses() {
         ("G2 X0 Y0 I-5.1 J0", 8, "Radius to end of arc differs"),
         ("G2 X10 Y0 I0 J0", 8, "zero radius"),
         ("G90.1 G2 X0 Y10 I0", 8, "I and J must both stand"),
-        ("G18 G2 X0 Z1 I-5 K0", 8, "an arc outside the XY plane"),
+        ("G18 G2 X0 Z1 I-5 K0", 8, "Radius to end of arc differs"),
+        ("G18 G2 X0", 8, "an arc without R and offsets in its plane"),
         ("G93 G1 X1", 8, "F word missing with inverse time"),
         ("G94 G1 X1", 8, "with zero feed rate"),
         ("G1 X1 F0", 8, "with zero feed rate"),
@@ -127,7 +129,7 @@ fn linuxcnc_refuses_what_it_refuses() {
         ("G4 P-1", 8, "negative time"),
         ("G53 G2 X0", 8, "G53 without G0 or G1"),
         ("G80\nX1", 9, "without a motion code"),
-        ("G81 X1 Z-1 R1", 8, "G81 is not followed"),
+        ("G87 X1 Z-1 R1", 8, "G87 is not followed"),
         ("M3 M4", 8, "two M codes of one modal group"),
         ("M345.5", 8, "unknown code M345.5"),
         ("T-1", 8, "T-1 is not in"),
@@ -159,7 +161,7 @@ fn what_is_left_to_settings_is_said_once() {
     let said = |text: &str| trace("linuxcnc", text).assumed.iter().map(|a| a.line).collect::<Vec<_>>();
     assert!(said(&linuxcnc("G1 X1\nX2\nG2 X4 I1")).is_empty());
     let text = "G0 X1\nF100 S100 M3 G1 X2\nX3\nG2 X5 I1\nM2\n";
-    assert_eq!(said(text), [1, 1, 2, 2, 4]);
+    assert_eq!(said(text), [1, 1, 2, 2, 2, 4]);
 }
 
 #[test]
@@ -191,7 +193,7 @@ fn a_turning_table_makes_spirals() {
         &linuxcnc("G0 C0\nG1 Y1\nG1 X1 C5"),
         &[(10, "the tool must be on the table's X axis")],
     );
-    let reversed = MachineSetup { rotary: Some(Rotary { letter: 'A', reversed: true }), tools: None };
+    let reversed = MachineSetup { rotary: Some(Rotary { letter: 'A', reversed: true }), ..MachineSetup::default() };
     let text = linuxcnc("G0 A0\nG1 A10");
     let moves = moves_of(run(text.as_bytes(), "linuxcnc", &reversed).expect("known"));
     let TracePath::Spiral { angle, .. } = moves[3].path else { panic!() };
@@ -231,7 +233,7 @@ fn a_nurbs_of_linuxcnc_has_uniform_clamped_knots() {
 
 fn fanuc(body: &str) -> String {
     format!(
-        "%\nO0001\nG17 G21 G40 G49 G80 G90 G94\nT1 M6\nG43 H1\nG0 X10. Y0. Z5.\nS1000 M3\nF100.\n{body}\nM30\n%\n"
+        "%\nO0001\nG17 G21 G40 G49 G80 G90 G94 G54\nT1 M6\nG43 H1\nG0 X10. Y0. Z5.\nS1000 M3\nF100.\n{body}\nM30\n%\n"
     )
 }
 
@@ -317,7 +319,7 @@ fn a_nurbs_of_fanuc_obeys_its_knot_rules() {
 }
 
 fn grbl(body: &str) -> String {
-    format!("G21 G90 G17 G94 G61\nG0 X10 Y0 Z5\nS1000 M3\nF100\n{body}\nM30\n")
+    format!("G21 G90 G17 G94 G61 G54\nG0 X10 Y0 Z5\nS1000 M3\nF100\n{body}\nM30\n")
 }
 
 #[test]
@@ -372,7 +374,7 @@ fn grbl_accepts_what_it_accepts() {
     assert!(close(moves[3].feed.unwrap(), 2.0 * moves[3].length()));
     // A program may end without M2, but not with the spindle turning.
     assert_eq!(trace("grbl", "G21 G90\nG0 X1\n").faults, []);
-    assert!(trace("grbl", "G21 G90\nS100 M3\n").faults[0].message.contains("no M2 or M30"));
+    assert!(trace("grbl", "G21 G90\nS100 M3\n").faults[0].message.contains("the spindle turning"));
 }
 
 #[test]
@@ -419,3 +421,7 @@ proptest::proptest! {
         }
     }
 }
+
+mod arcs;
+mod controls;
+mod cycles;

@@ -2,10 +2,12 @@
 
 use super::block::{Block, bit};
 use super::codes::{Mode, Plane};
-use super::machine::{Machine, Out, Plan};
+use super::machine::Machine;
 use super::motion::Target;
-use super::{FeedMode, Follow, TracePath};
-use crate::geom::{Point2, Vec2};
+use super::state::Plan;
+use crate::geom::Point2;
+use crate::readback::out::Out;
+use crate::readback::{FeedMode, Follow, TracePath};
 
 /// Most control points of one curve; a control's memory is smaller.
 const MOST_POINTS: usize = 1_000_000;
@@ -308,34 +310,4 @@ fn knot_complaint(knots: &[f64], order: usize) -> Option<String> {
 fn uniform_knots(n: usize, order: usize) -> Vec<f64> {
     let spans = n + 1 - order;
     (0..n + order).map(|i| (i + 1).saturating_sub(order).min(spans) as f64).collect()
-}
-
-/// Point of a rational B-spline at `u`, by de Boor's algorithm on homogeneous coordinates. Parameters outside the
-/// domain give the nearest end.
-pub(crate) fn point(order: usize, points: &[Point2], weights: &[f64], knots: &[f64], u: f64) -> Point2 {
-    let Some(first) = points.first() else { return Point2::origin() };
-    if order < 2 || points.len() < order || knots.len() < points.len() + order {
-        return *first;
-    }
-    let last = points.len() - 1;
-    let inside = knots.get(order..points.len()).unwrap_or_default();
-    let span = order - 1 + inside.partition_point(|&k| k <= u);
-    let mut d = [(Vec2::zeros(), 0.0); 32];
-    let used = order.min(32);
-    for (j, slot) in d.iter_mut().enumerate().take(used) {
-        let i = (span + 1 + j - order).min(last);
-        let w = weights.get(i).copied().unwrap_or(1.0);
-        *slot = (points.get(i).unwrap_or(first).coords * w, w);
-    }
-    let knot = |i: usize| knots.get(i).copied().unwrap_or(0.0);
-    for r in 1..used {
-        for j in (r..used).rev() {
-            let i = span + 1 + j - order;
-            let (a, b) = (knot(i), knot(i + order - r));
-            let t = if b > a { ((u - a) / (b - a)).clamp(0.0, 1.0) } else { 0.0 };
-            d[j] = (d[j - 1].0 * (1.0 - t) + d[j].0 * t, d[j - 1].1 * (1.0 - t) + d[j].1 * t);
-        }
-    }
-    let (p, w) = d[used - 1];
-    Point2::from(p / w)
 }

@@ -1,12 +1,13 @@
 //! Grbl 1.1, from its list of supported codes and its error codes.
 
-use super::FeedMode;
-use super::codes::{G, Group, M, Mode, Plane};
-use super::rules::{Frame, Rules};
+use super::super::codes::{G, Group, M, Mode, Plane};
+use super::super::rules::{ArcEnd, Dwell, FeedReset, Frame, RotaryFeed, Rules, Unpointed};
+use crate::readback::FeedMode;
 
 pub(super) const RULES: Rules = Rules {
     name: "grbl",
     frame: Frame::Free,
+    parentheses: true,
     semicolon_comment: true,
     comment_may_stay_open: true,
     comment_may_nest: true,
@@ -16,24 +17,37 @@ pub(super) const RULES: Rules = Rules {
     percent_allowed: false,
     lower_case: true,
     slash_anywhere: true,
+    checksum: false,
     line_limit: Some(79),
     limit_counts_all: false,
     whole_numbers: &[],
-    least_increments: false,
+    unpointed: Unpointed::Whole,
+    largest_length: None,
     largest_n: 10_000_000.0,
     largest_t: 255.0,
+    largest_inverse: f64::INFINITY,
     most_m: 4,
     g,
     m,
-    dwell_p: 1.0,
-    dwell_x: false,
+    dwell: &[(b'P', Dwell::Seconds)],
+    cycles: None,
     tool_change: false,
     length_offset: false,
+    length_needs_h: false,
+    work_offset: true,
+    reference_needs_axis: false,
     starts_at_rapid: true,
+    repeat_motion: false,
+    feed_modes: true,
+    feed_reset: FeedReset::Change,
+    rotary_feed: RotaryFeed::LinearAxes,
     blends: false,
     radius_wins: false,
+    shaky_half_circle: false,
     arc_turns: false,
     arc_needs_end: true,
+    arc_end: ArcEnd::Spiral,
+    arc_mode_stated: false,
     largest_difference,
     arc_complaint: "error:33, invalid target: the arc's radii differ",
     full_circle_fuzz: 5e-7,
@@ -43,11 +57,11 @@ pub(super) const RULES: Rules = Rules {
 };
 
 /// 0.5 mm, or 0.005 mm and 0.1 % of the radius.
-fn largest_difference(radius: f64) -> f64 {
+fn largest_difference(radius: f64, _inch: bool) -> f64 {
     (0.001 * radius).clamp(0.005, 0.5)
 }
 
-fn g(tenths: u16) -> Option<G> {
+pub(super) fn g(tenths: u16) -> Option<G> {
     Some(match tenths {
         0 => G::Motion(Mode::Rapid),
         10 => G::Motion(Mode::Linear),
@@ -63,7 +77,6 @@ fn g(tenths: u16) -> Option<G> {
         400 => G::RadiusOff,
         490 => G::LengthOff,
         530 => G::MachineCoordinates,
-        540 | 550 | 560 | 570 | 580 | 590 => G::WorkOffset,
         610 => G::ExactPath,
         800 => G::Motion(Mode::None),
         900 => G::Distance { incremental: false },
@@ -74,11 +87,11 @@ fn g(tenths: u16) -> Option<G> {
         382..=385 => G::Unfollowed(Group::Motion),
         431 => G::Unfollowed(Group::Length),
         100 | 281 | 301 | 920 | 921 => G::Unfollowed(Group::Once),
-        _ => return None,
+        _ => return super::fanuc::offset(tenths),
     })
 }
 
-fn m(tenths: u16) -> Option<M> {
+pub(super) fn m(tenths: u16) -> Option<M> {
     Some(match tenths {
         0 => M::Stop { optional: false },
         10 => M::Stop { optional: true },
@@ -86,7 +99,7 @@ fn m(tenths: u16) -> Option<M> {
         30 => M::SpindleOn { clockwise: true },
         40 => M::SpindleOn { clockwise: false },
         50 => M::SpindleOff,
-        70 | 80 => M::CoolantOn,
+        70 | 80 => M::CoolantOn { mist: tenths == 70 },
         90 => M::CoolantOff,
         _ => return None,
     })

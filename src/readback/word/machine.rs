@@ -1,86 +1,19 @@
 //! Executing blocks: modal state, checks that do not depend on the motion, order of execution.
 
 use super::block::{Block, bit};
-use super::codes::{G, Group, M, Mode, Plane};
-use super::rules::{Frame, Rules};
-use super::{EventKind, Fault, FeedMode, Follow, MachineSetup, TraceEvent};
+use super::codes::{G, Group, M};
+use super::rules::{FeedReset, Rules, Unpointed};
+use super::state::{Plan, State};
+use crate::readback::out::Out;
+use crate::readback::{EventKind, FeedMode, Follow, MachineSetup, Washing};
 
 /// Millimetres in an inch.
 pub(super) const INCH: f64 = 25.4;
 /// Words that are never left unused.
 const ALWAYS_USED: u32 = bit(b'N') | bit(b'F') | bit(b'S') | bit(b'T') | bit(b'O');
-
-/// Where messages and events of the block in hand go.
-pub(super) struct Out<'a, S: Follow> {
-    pub sink: &'a mut S,
-    pub line: u32,
-}
-
-impl<S: Follow> Out<'_, S> {
-    #[cold]
-    pub(super) fn fault(&mut self, message: impl Into<String>) {
-        self.sink.fault(Fault { line: self.line, message: message.into() });
-    }
-    #[cold]
-    pub(super) fn assumed(&mut self, message: impl Into<String>) {
-        self.sink.assumed(Fault { line: self.line, message: message.into() });
-    }
-    pub(super) fn event(&mut self, kind: EventKind) {
-        self.sink.event(TraceEvent { line: self.line, kind });
-    }
-}
-
-/// What a block asks for, group by group.
-#[derive(Debug, Default)]
-pub(super) struct Plan {
-    groups: u32,
-    m_groups: u8,
-    pub motion: Option<Mode>,
-    pub nurbs_end: bool,
-    pub once: Option<G>,
-    plane: Option<Plane>,
-    inch: Option<bool>,
-    incremental: Option<bool>,
-    arc_incremental: Option<bool>,
-    feed: Option<FeedMode>,
-    length: Option<bool>,
-    path: Option<G>,
-    offset: bool,
-    loose: bool,
-    stop: Option<M>,
-    spindle: Option<M>,
-    tool_change: bool,
-    /// A code that this reader does not follow: the block's words can't be judged.
-    pub unfollowed: bool,
-}
-
-/// Modal state of the control.
-#[derive(Debug)]
-pub(super) struct State {
-    /// X, Y, Z in mm and the rotary axis in degrees, as programmed.
-    pub position: [f64; 4],
-    /// Which of them are known.
-    pub known: [bool; 4],
-    pub motion: Mode,
-    pub plane: Plane,
-    pub plane_stated: bool,
-    pub inch: Option<bool>,
-    pub incremental: Option<bool>,
-    pub arc_incremental: bool,
-    pub feed_mode: Option<FeedMode>,
-    /// mm/min, mm/rev or 1/min.
-    pub feed: Option<f64>,
-    pub length: bool,
-    /// mm; infinite when the control may cut corners as it likes.
-    pub path_tolerance: f64,
-    pub path_stated: bool,
-    pub speed: f64,
-    pub direction: f64,
-    pub tool: u32,
-    pub prepared: Option<u32>,
-    pub ended: bool,
-    pub assumed: u8,
-}
+/// Words that hold lengths.
+const LENGTHS: &[u8] = b"XYZIJKUVW";
+const LENGTH_BITS: u32 = bit(b'X') | bit(b'Y') | bit(b'Z') | bit(b'I') | bit(b'J') | bit(b'K') | bit(b'R');
 
 /// The executing half of the interpreter.
 #[derive(Debug)]
@@ -89,42 +22,18 @@ pub(super) struct Machine<'a> {
     pub setup: &'a MachineSetup,
     pub state: State,
     pub nurbs: super::nurbs::Open,
-    frame: FrameState,
-}
-
-/// What of the program's frame has been seen.
-#[derive(Debug, Default)]
-struct FrameState {
-    blocks: u32,
-    percents: u32,
-    number: bool,
-    closed: bool,
+    pub frame: super::frame::Seen,
 }
 
 impl<'a> Machine<'a> {
     pub(super) fn new(rules: &'static Rules, setup: &'a MachineSetup) -> Self {
-        let state = State {
-            position: [0.0; 4],
-            known: [false; 4],
-            motion: if rules.starts_at_rapid { Mode::Rapid } else { Mode::None },
-            plane: Plane::Xy,
-            plane_stated: false,
-            inch: None,
-            incremental: None,
-            arc_incremental: true,
-            feed_mode: None,
-            feed: None,
-            length: false,
-            path_tolerance: if rules.blends { f64::INFINITY } else { 0.0 },
-            path_stated: !rules.blends,
-            speed: 0.0,
-            direction: 0.0,
-            tool: 0,
-            prepared: None,
-            ended: false,
-            assumed: 0,
-        };
-        Machine { rules, setup, state, nurbs: super::nurbs::Open::default(), frame: FrameState::default() }
+        Machine {
+            rules,
+            setup,
+            state: State::new(rules),
+            nurbs: super::nurbs::Open::default(),
+            frame: super::frame::Seen::default(),
+        }
     }
 
     /// mm in the unit in force.
@@ -140,7 +49,7 @@ impl<'a> Machine<'a> {
     /// A length word in mm.
     pub(super) fn length(&self, block: &Block, letter: u8) -> Option<f64> {
         let value = block.get(letter)?;
-        if self.rules.least_increments && !block.point(letter) {
+        if self.rules.unpointed != Unpointed::Whole && !block.point(letter) {
             let least = if self.state.inch == Some(true) { 10_000.0 } else { 1000.0 };
             return Some(value / least * self.unit());
         }
@@ -150,7 +59,7 @@ impl<'a> Machine<'a> {
     /// A rotary word in degrees.
     pub(super) fn degrees(&self, block: &Block, letter: u8) -> Option<f64> {
         let value = block.get(letter)?;
-        let least = self.rules.least_increments && !block.point(letter);
+        let least = self.rules.unpointed != Unpointed::Whole && !block.point(letter);
         Some(if least { value / 1000.0 } else { value })
     }
 
@@ -179,68 +88,6 @@ impl<'a> Machine<'a> {
             self.unused(block, used, out);
         }
         self.finish_block(&plan, out);
-    }
-
-    /// Percent signs and program numbers; `true` when the block is nothing else.
-    fn framed<S: Follow>(&mut self, block: &Block, out: &mut Out<'_, S>) -> bool {
-        if block.percent {
-            self.frame.percents += 1;
-            if self.frame.blocks > 0 && self.frame.percents == 1 && self.rules.frame != Frame::Free {
-                out.fault("'%' inside the program without one at its start");
-            }
-            self.frame.closed = self.frame.percents > 1;
-            return true;
-        }
-        if block.is_empty() {
-            return false;
-        }
-        if self.frame.closed {
-            out.fault("a block after the closing '%'");
-        }
-        let first = self.frame.blocks == 0;
-        self.frame.blocks = self.frame.blocks.saturating_add(1);
-        if first && self.rules.frame == Frame::PercentAndNumber {
-            self.program_number(block, out);
-        } else if block.has(b'O') {
-            out.fault("O words inside the program are not followed");
-            return true;
-        }
-        first && block.seen == bit(b'O') && block.g.len() + block.m.len() == 0
-    }
-
-    fn program_number<S: Follow>(&mut self, block: &Block, out: &mut Out<'_, S>) {
-        if self.frame.percents == 0 {
-            out.fault("the program does not start with '%'");
-        }
-        match block.get(b'O') {
-            None => out.fault("the program has no O number"),
-            Some(o) if !(1.0..=99_999_999.0).contains(&o) => {
-                out.fault(format!("program number O{o} is not in 1 to 99999999"));
-            }
-            Some(_) => self.frame.number = true,
-        }
-    }
-
-    /// What must be said when the text is over.
-    pub(super) fn end_of_text<S: Follow>(&mut self, out: &mut Out<'_, S>) {
-        self.nurbs_left_open(out);
-        let percents = self.frame.percents;
-        match self.rules.frame {
-            Frame::PercentAndNumber if percents < 2 => out.fault("the program does not end with '%'"),
-            Frame::PercentPairOrEnd if percents == 1 => {
-                out.fault("the file starts with '%' and does not end with one")
-            }
-            Frame::PercentAndNumber | Frame::PercentPairOrEnd | Frame::Free => {}
-        }
-        let needs_end = match self.rules.frame {
-            Frame::PercentAndNumber => true,
-            Frame::PercentPairOrEnd => percents == 0,
-            // The control would wait for more, which is fine unless the spindle turns.
-            Frame::Free => self.state.direction != 0.0,
-        };
-        if !self.state.ended && needs_end {
-            out.fault("the program has no M2 or M30 at its end");
-        }
     }
 
     /// Gathers the codes by group; `None` when they contradict each other or are unknown.
@@ -288,7 +135,8 @@ impl<'a> Machine<'a> {
         match g {
             G::Motion(mode) => plan.motion = Some(mode),
             G::NurbsEnd => plan.nurbs_end = true,
-            G::Dwell | G::MachineCoordinates | G::Reference => plan.once = Some(g),
+            G::Dwell | G::MachineCoordinates | G::Reference | G::ReturnHeight => plan.once = Some(g),
+            G::Return { to_r } => plan.return_to_r = Some(to_r),
             G::Plane(plane) => plan.plane = Some(plane),
             G::Units { inch } => plan.inch = Some(inch),
             G::Distance { incremental } => plan.incremental = Some(incremental),
@@ -296,8 +144,8 @@ impl<'a> Machine<'a> {
             G::Feed(mode) => plan.feed = Some(mode),
             G::LengthOn => plan.length = Some(true),
             G::LengthOff => plan.length = Some(false),
-            G::ExactPath | G::Blend => plan.path = Some(g),
-            G::WorkOffset => plan.offset = true,
+            G::ExactPath | G::Blend | G::Smoothing => plan.path = Some(g),
+            G::WorkOffset(number) => plan.offset = Some(number),
             G::RadiusOff => {}
             G::NoEffect(_) => plan.loose = true,
             G::Unfollowed(_) => {
@@ -308,8 +156,8 @@ impl<'a> Machine<'a> {
         true
     }
 
-    /// Ranges of N, T and S.
-    fn limits<S: Follow>(&self, block: &Block, out: &mut Out<'_, S>) {
+    /// Ranges of N, T, S and of lengths.
+    fn limits<S: Follow>(&mut self, block: &Block, out: &mut Out<'_, S>) {
         for (letter, largest) in [(b'N', self.rules.largest_n), (b'T', self.rules.largest_t), (b'S', 1e6)] {
             let Some(value) = block.get(letter) else { continue };
             if !(0.0..=largest).contains(&value) {
@@ -318,6 +166,20 @@ impl<'a> Machine<'a> {
             if letter != b'S' && value.fract() != 0.0 {
                 out.fault(format!("{}{value} is not an integer", char::from(letter)));
             }
+        }
+        if let Some((mm, inch)) = self.rules.largest_length {
+            let largest = if self.state.inch == Some(true) { inch } else { mm };
+            for letter in LENGTHS.iter().copied().filter(|&l| block.get(l).is_some_and(|v| v.abs() > largest)) {
+                let value = block.get(letter).unwrap_or_default();
+                out.fault(format!("{}{value} has more digits than the control takes", char::from(letter)));
+            }
+        }
+        if self.rules.unpointed == Unpointed::Setting && block.seen & LENGTH_BITS & !block.pointed != 0 {
+            self.assume(
+                5,
+                out,
+                "a length without a decimal point: whether it counts units or least increments is a setting",
+            );
         }
     }
 
@@ -330,9 +192,13 @@ impl<'a> Machine<'a> {
         }
         self.units(plan.inch);
         self.feed_mode(plan.feed);
-        self.feed_word(block, out);
-        if let Some(speed) = block.get(b'S') {
+        let dwell = plan.once == Some(G::Dwell);
+        let of_dwell = |letter: u8| dwell && self.rules.dwell.iter().any(|(l, _)| *l == letter);
+        if let Some(speed) = block.get(b'S').filter(|_| !of_dwell(b'S')) {
             self.state.speed = speed;
+        }
+        if !of_dwell(b'F') {
+            self.feed_word(block, out);
         }
         self.tool(block, plan, out);
         self.spindle(plan.spindle);
@@ -340,14 +206,46 @@ impl<'a> Machine<'a> {
         self.state.plane_stated |= plan.plane.is_some();
         self.state.plane = plan.plane.unwrap_or(self.state.plane);
         self.tool_length(block, plan, used, out);
-        if plan.offset {
-            self.state.known = [false; 4];
-            *used |= if self.rules.least_increments { bit(b'P') } else { 0 };
-        }
+        self.offset(block, plan, used, out);
         self.path(block, plan.path, used, out);
         self.state.incremental = plan.incremental.or(self.state.incremental);
         self.state.arc_incremental = plan.arc_incremental.unwrap_or(self.state.arc_incremental);
-        *used |= if plan.loose { bit(b'P') | bit(b'Q') | bit(b'R') } else { 0 };
+        self.state.arc_mode_stated |= plan.arc_incremental.is_some();
+        self.state.cycle.to_r = plan.return_to_r.or(self.state.cycle.to_r);
+        self.coolant(plan);
+        *used |= if plan.loose { bit(b'P') | bit(b'Q') | bit(b'R') | bit(b'E') } else { 0 };
+    }
+
+    /// The position in another work offset is not known; that in the same one stays.
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+    fn offset<S: Follow>(&mut self, block: &Block, plan: &Plan, used: &mut u32, out: &mut Out<'_, S>) {
+        let number = match plan.offset {
+            None => return,
+            Some(0) => {
+                let letters = [b'P', b'H', b'E'];
+                let word = letters.into_iter().find_map(|l| block.get(l).map(|v| (l, v)));
+                let Some((letter, value)) = word.filter(|(_, v)| v.fract() == 0.0 && (1.0..=999.0).contains(v))
+                else {
+                    return out.fault("a work offset without its number");
+                };
+                *used |= bit(letter);
+                value as u16 + if letter == b'P' { 100 } else { 0 }
+            }
+            Some(number) => number,
+        };
+        if self.state.work_offset != number {
+            self.state.known = [false; 4];
+        }
+        self.state.work_offset = number;
+    }
+
+    fn coolant(&mut self, plan: &Plan) {
+        match plan.coolant {
+            Some(M::CoolantOn { mist: true }) => self.state.coolant.mist = true,
+            Some(M::CoolantOn { mist: false }) => self.state.coolant.flood = true,
+            Some(_) => self.state.coolant = Washing::default(),
+            None => {}
+        }
     }
 
     fn units(&mut self, inch: Option<bool>) {
@@ -358,11 +256,10 @@ impl<'a> Machine<'a> {
         self.state.inch = Some(inch);
     }
 
-    /// A feed of one mode means nothing in another: it is gone when the mode changes. LinuxCNC forgets it at
-    /// every G94 and G95.
+    /// A feed of one mode means nothing in another: it is gone when the mode changes, on some controls at every word.
     fn feed_mode(&mut self, mode: Option<FeedMode>) {
         let Some(mode) = mode else { return };
-        if self.state.feed_mode.is_some_and(|now| now != mode) || self.rules.blends {
+        if self.state.feed_mode.is_some_and(|now| now != mode) || self.rules.feed_reset == FeedReset::EveryWord {
             self.state.feed = None;
         }
         self.state.feed_mode = Some(mode);
@@ -373,10 +270,15 @@ impl<'a> Machine<'a> {
         if value < 0.0 {
             return out.fault(format!("negative feed F{value}"));
         }
-        let unpointed = self.rules.least_increments && !block.point(b'F');
+        let unpointed = self.rules.unpointed == Unpointed::Least && !block.point(b'F');
         let inch = self.state.inch == Some(true);
         self.state.feed = Some(match self.state.feed_mode {
-            Some(FeedMode::InverseTime) => value,
+            Some(FeedMode::InverseTime) => {
+                if value > self.rules.largest_inverse {
+                    out.fault(format!("F{value} under G93, the control takes {}", self.rules.largest_inverse));
+                }
+                value
+            }
             Some(FeedMode::PerRevolution) if unpointed => value * if inch { 0.0001 * INCH } else { 0.01 },
             None | Some(FeedMode::PerMinute) if unpointed && inch => value * 0.01 * INCH,
             _ => value * self.unit(),
@@ -422,21 +324,17 @@ impl<'a> Machine<'a> {
         if plan.once != Some(G::Dwell) {
             return;
         }
-        let seconds = match (block.get(b'P'), block.get(b'X')) {
-            (Some(p), _) => {
-                *used |= bit(b'P');
-                Some(p * self.rules.dwell_p)
-            }
-            (None, Some(x)) if self.rules.dwell_x => {
-                *used |= bit(b'X');
-                Some(if block.point(b'X') { x } else { x / 1000.0 })
-            }
-            _ => None,
-        };
-        match seconds {
-            None => out.fault("G4 without the dwell's time"),
-            Some(s) if s < 0.0 => out.fault(format!("G4 with the negative time {s} s")),
-            Some(s) => out.event(EventKind::Dwell(s)),
+        let word = self.rules.dwell.iter().find_map(|&(l, unit)| block.get(l).map(|v| (l, unit, v)));
+        for &(letter, _) in self.rules.dwell {
+            *used |= bit(letter);
+        }
+        let Some((letter, unit, value)) = word else { return out.fault("G4 without the dwell's time") };
+        if value < 0.0 {
+            return out.fault(format!("G4 with the negative time {}{value}", char::from(letter)));
+        }
+        match unit.seconds(value, block.point(letter), self.state.direction.abs() * self.state.speed) {
+            Some(seconds) => out.event(EventKind::Dwell(seconds)),
+            None => out.fault("G4 in revolutions with the spindle standing"),
         }
     }
 
@@ -450,7 +348,7 @@ impl<'a> Machine<'a> {
         *used |= bit(b'H');
         let tool = f64::from(self.state.tool);
         match block.get(b'H') {
-            None if self.rules.least_increments => out.fault("G43 without an H word"),
+            None if self.rules.length_needs_h => out.fault("G43 without an H word"),
             Some(h) if h.fract() != 0.0 || h < 0.0 => out.fault(format!("G43 with H{h}")),
             Some(h) if (h - tool).abs() > 0.5 => {
                 out.assumed(format!(
@@ -471,6 +369,11 @@ impl<'a> Machine<'a> {
             return;
         }
         *used |= bit(b'P') | bit(b'Q');
+        if path == G::Smoothing {
+            *used |= bit(b'E');
+            self.state.path_tolerance = self.length(block, b'E').unwrap_or(0.0);
+            return;
+        }
         let naive = self.length(block, b'Q');
         self.state.path_tolerance = match self.length(block, b'P') {
             Some(p) if p < 0.0 || naive.is_some_and(|q| q < 0.0) => {
@@ -506,6 +409,7 @@ impl<'a> Machine<'a> {
             Some(M::End) => {
                 self.state.ended = true;
                 self.state.direction = 0.0;
+                self.state.coolant = Washing::default();
                 out.event(EventKind::End);
             }
             _ => {}
@@ -525,7 +429,9 @@ fn gather_m<S: Follow>(code: u16, m: M, plan: &mut Plan, out: &mut Out<'_, S>) -
         M::Stop { .. } | M::End => plan.stop = Some(m),
         M::SpindleOn { .. } | M::SpindleOff => plan.spindle = Some(m),
         M::ToolChange => plan.tool_change = true,
-        M::CoolantOn | M::CoolantOff | M::NoEffect => {}
+        M::CoolantOn { .. } | M::CoolantOff => plan.coolant = Some(m),
+        M::CycleReturn { to_r } => plan.return_to_r = Some(to_r),
+        M::NoEffect => {}
         M::Unfollowed => {
             plan.unfollowed = true;
             out.fault(format!("M{} is not followed by this reader", tenths(code)));

@@ -1,10 +1,10 @@
 //! Meanings of G and M codes, and the modal groups they belong to.
 
-use super::FeedMode;
+use crate::readback::FeedMode;
 
 /// Working planes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Plane {
+pub(in crate::readback) enum Plane {
     /// G17.
     Xy,
     /// G18.
@@ -15,7 +15,7 @@ pub(super) enum Plane {
 
 /// Motions that stay in force.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Mode {
+pub(in crate::readback) enum Mode {
     /// No motion code in force (G80).
     None,
     /// G0.
@@ -31,11 +31,39 @@ pub(super) enum Mode {
     NurbsPoints,
     /// G06.2: knots and control points follow.
     NurbsKnots,
+    /// A drilling cycle.
+    Cycle(CycleKind),
+}
+
+/// What a drilling cycle does at the bottom of a hole and on the way there.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::readback) enum CycleKind {
+    /// G81: down at feed, up at rapid.
+    Drill,
+    /// G82: as G81 with a dwell.
+    Dwell,
+    /// G83: in pecks, out of the hole after each.
+    Deep,
+    /// G73: in pecks, back by a little after each.
+    ChipBreak,
+    /// G84 (right), G74 (left): up at feed with the spindle reversed.
+    Tap {
+        /// G74.
+        left: bool,
+    },
+    /// G85: up at feed.
+    Bore,
+    /// G89: as G85 with a dwell.
+    BoreDwell,
+    /// G86: spindle stopped at the bottom, up at rapid.
+    BoreStop,
+    /// G76: spindle stopped and oriented, tool moved off the wall by Q, up at rapid.
+    Fine,
 }
 
 /// What a G code means.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum G {
+pub(in crate::readback) enum G {
     /// A motion.
     Motion(Mode),
     /// G5.3: the curve that G5.2 opened is cut.
@@ -71,12 +99,21 @@ pub(super) enum G {
     MachineCoordinates,
     /// G28/G30.
     Reference,
-    /// G54 …
-    WorkOffset,
+    /// G54 … by number from 1; 0: the number is in a word.
+    WorkOffset(u16),
+    /// G98 (back to the initial height) and G99 (back to R).
+    Return {
+        /// G99.
+        to_r: bool,
+    },
+    /// G71 Z: the height that M53 returns to (Okuma).
+    ReturnHeight,
     /// G61, G61.1.
     ExactPath,
     /// G64.
     Blend,
+    /// G187 P E: E is how far corners may be rounded (Haas).
+    Smoothing,
     /// G97, G98, G99, G69, G50, G5.1 Q0 and the like: no effect on the path in the form they are understood in.
     NoEffect(Group),
     /// The control knows it, this reader does not follow it.
@@ -85,7 +122,7 @@ pub(super) enum G {
 
 /// Modal groups: two codes of one group in a block contradict each other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Group {
+pub(in crate::readback) enum Group {
     /// One-shot codes.
     Once,
     /// Motion.
@@ -118,7 +155,7 @@ pub(super) enum Group {
 
 impl Group {
     /// What the messages call it.
-    pub(super) fn name(self) -> &'static str {
+    pub(in crate::readback) fn name(self) -> &'static str {
         match self {
             Group::Once => "the one-shot codes",
             Group::Motion => "the motion codes",
@@ -140,10 +177,10 @@ impl Group {
 
 impl G {
     /// Its modal group.
-    pub(super) fn group(self) -> Group {
+    pub(in crate::readback) fn group(self) -> Group {
         match self {
             G::Motion(_) | G::NurbsEnd => Group::Motion,
-            G::Dwell | G::MachineCoordinates | G::Reference => Group::Once,
+            G::Dwell | G::MachineCoordinates | G::Reference | G::ReturnHeight => Group::Once,
             G::Plane(_) => Group::Plane,
             G::Units { .. } => Group::Units,
             G::Distance { .. } => Group::Distance,
@@ -151,8 +188,9 @@ impl G {
             G::Feed(_) => Group::Feed,
             G::RadiusOff => Group::Radius,
             G::LengthOn | G::LengthOff => Group::Length,
-            G::WorkOffset => Group::Offset,
-            G::ExactPath | G::Blend => Group::Path,
+            G::WorkOffset(_) => Group::Offset,
+            G::Return { .. } => Group::Return,
+            G::ExactPath | G::Blend | G::Smoothing => Group::Path,
             G::NoEffect(group) | G::Unfollowed(group) => group,
         }
     }
@@ -160,7 +198,7 @@ impl G {
 
 /// What an M code means.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum M {
+pub(in crate::readback) enum M {
     /// M0, M1.
     Stop {
         /// M1.
@@ -178,9 +216,17 @@ pub(super) enum M {
     /// M6.
     ToolChange,
     /// M7, M8.
-    CoolantOn,
+    CoolantOn {
+        /// M7.
+        mist: bool,
+    },
     /// M9.
     CoolantOff,
+    /// M53 and M54: cycles return to the height of G71, or to R (Okuma).
+    CycleReturn {
+        /// M54.
+        to_r: bool,
+    },
     /// M48 and the like.
     NoEffect,
     /// The control knows it, this reader does not follow it.
@@ -189,13 +235,14 @@ pub(super) enum M {
 
 impl M {
     /// Index of its modal group among the M codes.
-    pub(super) fn group(self) -> u8 {
+    pub(in crate::readback) fn group(self) -> u8 {
         match self {
             M::Stop { .. } | M::End => 0,
             M::SpindleOn { .. } | M::SpindleOff => 1,
             M::ToolChange => 2,
-            M::CoolantOn | M::CoolantOff => 3,
+            M::CoolantOn { .. } | M::CoolantOff => 3,
             M::NoEffect => 5,
+            M::CycleReturn { .. } => 7,
             M::Unfollowed => 6,
         }
     }

@@ -1,12 +1,13 @@
 //! Fanuc 30i milling, G-code system of machining centres.
 
-use super::FeedMode;
-use super::codes::{G, Group, M, Mode, Plane};
-use super::rules::{Frame, Rules};
+use super::super::codes::{CycleKind, G, Group, M, Mode, Plane};
+use super::super::rules::{ArcEnd, Cycles, Dwell, FeedReset, Frame, RotaryFeed, Rules, Unpointed};
+use crate::readback::FeedMode;
 
 pub(super) const RULES: Rules = Rules {
     name: "fanuc",
     frame: Frame::PercentAndNumber,
+    parentheses: true,
     semicolon_comment: false,
     comment_may_stay_open: false,
     comment_may_nest: false,
@@ -16,25 +17,38 @@ pub(super) const RULES: Rules = Rules {
     percent_allowed: true,
     lower_case: false,
     slash_anywhere: false,
+    checksum: false,
     line_limit: None,
     limit_counts_all: true,
     whole_numbers: b"NOTDHSLMP",
-    least_increments: true,
+    unpointed: Unpointed::Least,
+    largest_length: Some((99_999.999, 9999.9999)),
     largest_n: 99_999_999.0,
     largest_t: 99_999_999.0,
+    largest_inverse: 99_999.999,
     most_m: 1,
     g,
     m,
-    dwell_p: 0.001,
-    dwell_x: true,
+    dwell: &[(b'P', Dwell::Milliseconds), (b'X', Dwell::ByPoint)],
+    cycles: Some(&CYCLES),
     tool_change: true,
     length_offset: true,
+    length_needs_h: true,
+    work_offset: true,
+    reference_needs_axis: true,
     starts_at_rapid: false,
+    repeat_motion: false,
+    feed_modes: true,
+    feed_reset: FeedReset::Change,
+    rotary_feed: RotaryFeed::UnitsAsDegrees,
     blends: false,
     radius_wins: true,
+    shaky_half_circle: true,
     arc_turns: false,
     arc_needs_end: false,
-    largest_difference: |_| 0.01,
+    arc_end: ArcEnd::Spiral,
+    arc_mode_stated: false,
+    largest_difference: |_, _| 0.01,
     arc_complaint: "alarm PS0020, over tolerance of radius",
     full_circle_fuzz: 0.0,
     smallest_radius: 0.0,
@@ -42,7 +56,47 @@ pub(super) const RULES: Rules = Rules {
     unused: "no code in the block uses it",
 };
 
-fn g(tenths: u16) -> Option<G> {
+/// Pecks and dwells in milliseconds; the distance back is parameter 5114 or 5115.
+pub(super) const CYCLES: Cycles = Cycles {
+    dwell: Dwell::Milliseconds,
+    with_dwell: &[
+        CycleKind::Dwell,
+        CycleKind::Tap { left: false },
+        CycleKind::Tap { left: true },
+        CycleKind::BoreDwell,
+        CycleKind::Fine,
+    ],
+    clearance: 0.5,
+    clearance_word: false,
+    return_height: false,
+    repeats: b'K',
+    needs_motion: false,
+    higher_return: false,
+};
+
+/// The drilling cycles that most controls share.
+pub(super) fn cycle(tenths: u16) -> Option<G> {
+    Some(G::Motion(Mode::Cycle(match tenths {
+        730 => CycleKind::ChipBreak,
+        740 => CycleKind::Tap { left: true },
+        760 => CycleKind::Fine,
+        810 => CycleKind::Drill,
+        820 => CycleKind::Dwell,
+        830 => CycleKind::Deep,
+        840 => CycleKind::Tap { left: false },
+        850 => CycleKind::Bore,
+        860 => CycleKind::BoreStop,
+        890 => CycleKind::BoreDwell,
+        _ => return None,
+    })))
+}
+
+/// G54 to G59, by number from 1.
+pub(super) fn offset(tenths: u16) -> Option<G> {
+    (matches!(tenths, 540..=590) && tenths.is_multiple_of(10)).then(|| G::WorkOffset((tenths - 530) / 10))
+}
+
+pub(super) fn g(tenths: u16) -> Option<G> {
     Some(match tenths {
         0 => G::Motion(Mode::Rapid),
         10 => G::Motion(Mode::Linear),
@@ -60,7 +114,7 @@ fn g(tenths: u16) -> Option<G> {
         430 => G::LengthOn,
         490 => G::LengthOff,
         530 => G::MachineCoordinates,
-        540 | 541 | 550 | 560 | 570 | 580 | 590 => G::WorkOffset,
+        541 => G::WorkOffset(0),
         610 => G::ExactPath,
         640 => G::NoEffect(Group::Path),
         800 => G::Motion(Mode::None),
@@ -72,8 +126,8 @@ fn g(tenths: u16) -> Option<G> {
         150 | 501 | 500 | 670 | 690 | 131 => G::NoEffect(Group::Other),
         50 | 51 | 80 => G::NoEffect(Group::Once),
         970 => G::NoEffect(Group::Speed),
-        980 | 990 => G::NoEffect(Group::Return),
-        _ => return unfollowed(tenths),
+        980 | 990 => G::Return { to_r: tenths == 990 },
+        _ => return offset(tenths).or_else(|| cycle(tenths)).or_else(|| unfollowed(tenths)),
     })
 }
 
@@ -84,14 +138,14 @@ fn unfollowed(tenths: u16) -> Option<G> {
         410 | 420 => Group::Radius,
         431 | 434 | 435 | 440 => Group::Length,
         620 | 630 => Group::Path,
-        730 | 740 | 760 | 810..=890 => Group::Motion,
+        870 | 880 => Group::Motion,
         960 => Group::Speed,
         121 | 160 | 510 | 511 | 660 | 680 => Group::Other,
         _ => return None,
     }))
 }
 
-fn m(tenths: u16) -> Option<M> {
+pub(super) fn m(tenths: u16) -> Option<M> {
     Some(match tenths {
         0 => M::Stop { optional: false },
         10 => M::Stop { optional: true },
@@ -100,10 +154,10 @@ fn m(tenths: u16) -> Option<M> {
         40 => M::SpindleOn { clockwise: false },
         50 => M::SpindleOff,
         60 => M::ToolChange,
-        70 | 80 => M::CoolantOn,
+        70 | 80 => M::CoolantOn { mist: tenths == 70 },
         90 => M::CoolantOff,
-        480 | 490 => M::NoEffect,
-        190 | 290 | 980 | 990 | 1980 => M::Unfollowed,
+        290 | 480 | 490 => M::NoEffect,
+        190 | 980 | 990 | 1980 => M::Unfollowed,
         _ => return None,
     })
 }

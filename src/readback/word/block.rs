@@ -1,19 +1,19 @@
 //! One block of a word-address program: cutting the line into words.
 
-use super::number::{Number, NumberError, number};
-use super::rules::Rules;
+use super::rules::{Frame, Rules};
+use crate::readback::number::{Number, NumberError, number};
 
 /// Most G (or M) codes that a block may hold before it is refused.
 const MAX_CODES: usize = 16;
 
 /// Bit of an address letter in a mask.
-pub(super) const fn bit(letter: u8) -> u32 {
+pub(in crate::readback) const fn bit(letter: u8) -> u32 {
     1 << (letter - b'A')
 }
 
 /// The G or M codes of a block, in tenths (G5.2 is 52).
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Codes {
+pub(in crate::readback) struct Codes {
     items: [u16; MAX_CODES],
     len: usize,
 }
@@ -29,18 +29,18 @@ impl Codes {
         fits
     }
     /// The codes in the order they stand.
-    pub(super) fn iter(&self) -> impl Iterator<Item = u16> + '_ {
+    pub(in crate::readback) fn iter(&self) -> impl Iterator<Item = u16> + '_ {
         self.items.iter().take(self.len).copied()
     }
     /// How many.
-    pub(super) fn len(&self) -> usize {
+    pub(in crate::readback) fn len(&self) -> usize {
         self.len
     }
 }
 
 /// The words of a block. Values are as written; scaling to units is the interpreter's.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Block {
+pub(in crate::readback) struct Block {
     /// G codes in tenths.
     pub g: Codes,
     /// M codes in tenths.
@@ -55,25 +55,27 @@ pub(super) struct Block {
     pub optional: bool,
     /// The block is nothing but a percent sign.
     pub percent: bool,
+    /// The block is nothing but a program name of letters and digits.
+    pub name: bool,
     values: [f64; 26],
 }
 
 impl Block {
     /// The value of a letter, if it is there.
-    pub(super) fn get(&self, letter: u8) -> Option<f64> {
+    pub(in crate::readback) fn get(&self, letter: u8) -> Option<f64> {
         let index = usize::from(letter.wrapping_sub(b'A'));
         self.values.get(index).copied().filter(|_| self.seen & bit(letter) != 0)
     }
     /// Whether a letter is there.
-    pub(super) fn has(&self, letter: u8) -> bool {
+    pub(in crate::readback) fn has(&self, letter: u8) -> bool {
         self.seen & bit(letter) != 0
     }
     /// Whether the number of the letter was written with a point.
-    pub(super) fn point(&self, letter: u8) -> bool {
+    pub(in crate::readback) fn point(&self, letter: u8) -> bool {
         self.pointed & bit(letter) != 0
     }
     /// Whether it holds no word at all.
-    pub(super) fn is_empty(&self) -> bool {
+    pub(in crate::readback) fn is_empty(&self) -> bool {
         self.seen == 0 && self.g.len == 0 && self.m.len == 0
     }
     fn clear(&mut self) {
@@ -84,6 +86,7 @@ impl Block {
         self.length = 0;
         self.optional = false;
         self.percent = false;
+        self.name = false;
     }
     fn put(&mut self, letter: u8, number: Number) -> bool {
         let fresh = !self.has(letter);
@@ -98,14 +101,15 @@ impl Block {
 
 /// Cuts `line` (without its line end) into words. What the control would refuse goes to `fault`; the words
 /// that could be read are in the block all the same.
-pub(super) fn read(line: &[u8], rules: &Rules, block: &mut Block, fault: &mut dyn FnMut(String)) {
+pub(in crate::readback) fn read(line: &[u8], rules: &Rules, block: &mut Block, fault: &mut dyn FnMut(String)) {
     block.clear();
-    let mut at = 0;
+    let line = if rules.checksum { without_checksum(line, fault) } else { line };
+    let mut at = if rules.frame == Frame::Name { program_name(line, block) } else { 0 };
     while let Some(&c) = line.get(at) {
         at = match c {
             b'A'..=b'Z' => word(line, at, c, rules, block, fault),
             b' ' | b'\t' => at + 1,
-            b'(' => comment(line, at, rules, fault),
+            b'(' if rules.parentheses => comment(line, at, rules, fault),
             b';' if rules.semicolon_comment => {
                 check_comment(line.get(at + 1..).unwrap_or_default(), rules, fault);
                 line.len()
@@ -126,6 +130,35 @@ pub(super) fn read(line: &[u8], rules: &Rules, block: &mut Block, fault: &mut dy
         Some(limit) if line.len() > limit && !rules.limit_counts_all => stripped_length(line),
         _ => line.len(),
     };
+}
+
+/// The line up to its checksum: the exclusive or of all bytes before the star.
+fn without_checksum<'l>(line: &'l [u8], fault: &mut dyn FnMut(String)) -> &'l [u8] {
+    let code = line.split(|&c| c == b';').next().unwrap_or_default();
+    let Some(star) = code.iter().rposition(|&c| c == b'*') else { return line };
+    let (body, sum) = code.split_at(star);
+    let wanted = body.iter().fold(0u8, |sum, c| sum ^ c);
+    let said = core::str::from_utf8(sum.get(1..).unwrap_or_default()).ok().and_then(|s| s.trim().parse().ok());
+    if said != Some(wanted) {
+        fault(format!("checksum mismatch: the line's is {wanted}"));
+    }
+    if !body.trim_ascii_start().starts_with(b"N") {
+        fault("a checksum without a line number".to_owned());
+    }
+    body
+}
+
+/// A line `O` with one to four letters and digits is a program name; gives where the rest begins.
+fn program_name(line: &[u8], block: &mut Block) -> usize {
+    let text = line.trim_ascii();
+    let Some(name) = text.strip_prefix(b"O") else { return 0 };
+    let fits = (1..=4).contains(&name.len()) && name.iter().all(u8::is_ascii_alphanumeric);
+    if !fits {
+        return 0;
+    }
+    block.name = true;
+    block.put(b'O', Number { value: 0.0, point: false });
+    line.len()
 }
 
 /// Characters of a line that are neither blanks nor in a comment.

@@ -2,10 +2,14 @@
 
 use super::block::{Block, bit};
 use super::codes::{G, Mode, Plane};
-use super::machine::{Machine, Out, Plan};
-use super::{EventKind, FeedMode, Follow, TraceMove, TracePath};
+use super::machine::Machine;
+use super::rules::RotaryFeed;
+use super::state::Plan;
 use crate::geom::Point2;
-use crate::math::DEG;
+use crate::math::{DEG, hypot};
+use crate::readback::curve::along;
+use crate::readback::out::Out;
+use crate::readback::{EventKind, FeedMode, Follow, TraceMove, TracePath};
 
 /// Index of the rotary axis in a position.
 pub(super) const ROTARY: usize = 3;
@@ -20,7 +24,7 @@ pub(super) struct Target {
 }
 
 impl Target {
-    fn any(&self) -> bool {
+    pub(super) fn any(&self) -> bool {
         self.moved.iter().any(|&m| m)
     }
 }
@@ -40,21 +44,39 @@ impl Machine<'_> {
         if self.nurbs_block(block, plan, used, out) {
             return;
         }
+        if plan.once == Some(G::ReturnHeight) {
+            return self.return_height(block, used, out);
+        }
         let axes = self.axis_words() & block.seen & !*used;
         if let Some(mode) = plan.motion {
-            self.state.motion = mode;
+            self.change_motion(mode);
         }
         if plan.once == Some(G::Dwell) && axes != 0 {
             return out.fault("axis words in a dwell");
         }
-        if axes == 0 && !matches!((plan.motion, self.state.motion), (Some(_), Mode::Arc { .. })) {
-            let arc_words = bit(b'I') | bit(b'J') | bit(b'K') | bit(b'R');
-            let modal_arc = matches!(self.state.motion, Mode::Arc { .. }) && block.seen & arc_words != 0;
-            if !modal_arc || plan.once.is_some() {
-                return;
-            }
+        if axes != 0 || self.moves_without_axes(block, plan) {
+            self.moving(block, plan, axes, used, out);
         }
-        self.moving(block, plan, axes, used, out);
+    }
+
+    /// Full circles, and cycles that are defined or repeated on the spot.
+    fn moves_without_axes(&self, block: &Block, plan: &Plan) -> bool {
+        let arc_words = bit(b'I') | bit(b'J') | bit(b'K') | bit(b'R');
+        match self.state.motion {
+            Mode::Arc { .. } => plan.motion.is_some() || (block.seen & arc_words != 0 && plan.once.is_none()),
+            Mode::Cycle(_) => plan.motion.is_some() || (block.has(b'R') && plan.once.is_none()),
+            _ => false,
+        }
+    }
+
+    /// A motion code ends a cycle; one cycle follows another from the same initial height.
+    fn change_motion(&mut self, mode: Mode) {
+        let stays = matches!((self.state.motion, mode), (Mode::Cycle(_), Mode::Cycle(_)));
+        if let Mode::Cycle(_) = mode {
+            let begins = self.state.motion != mode;
+            self.state.cycle.begin(begins, (!stays).then_some(self.state.position[2]));
+        }
+        self.state.motion = mode;
     }
 
     fn moving<S: Follow>(
@@ -67,8 +89,11 @@ impl Machine<'_> {
     ) {
         let machine_coordinates = plan.once == Some(G::MachineCoordinates);
         if machine_coordinates {
-            *used |= axes;
+            *used |= axes | bit(b'H');
             return self.machine_move(block, out);
+        }
+        if self.rules.repeat_motion && plan.motion.is_none() {
+            out.fault("axis words without a motion code: not every build of this control keeps the last one");
         }
         self.state_assumptions(out);
         match self.state.motion {
@@ -78,6 +103,7 @@ impl Machine<'_> {
             }
             Mode::Rapid | Mode::Linear => self.straight(block, axes, used, out),
             Mode::Arc { clockwise } => self.arc(block, clockwise, used, out),
+            Mode::Cycle(kind) => self.cycle(block, kind, plan, used, out),
             // Blocks of an open curve never come here.
             Mode::NurbsPoints | Mode::NurbsKnots => {}
         }
@@ -97,6 +123,31 @@ impl Machine<'_> {
                 1,
                 out,
                 "neither G90 nor G91 before the first move: it is left to the control's setting",
+            );
+        }
+    }
+
+    /// What a program must state before its first cut.
+    fn cut_assumptions<S: Follow>(&mut self, out: &mut Out<'_, S>) {
+        if self.state.feed_mode.is_none() {
+            self.assume(
+                2,
+                out,
+                "none of G93, G94, G95 before the first cut: the feed mode is left to the control's setting",
+            );
+        }
+        if !self.state.path_stated {
+            self.assume(
+                3,
+                out,
+                "neither G61 nor G64 P before the first cut: how far corners are cut is left to the control",
+            );
+        }
+        if self.rules.work_offset && self.state.work_offset == 0 {
+            self.assume(
+                6,
+                out,
+                "no work offset before the first cut: the part's zero is left to what was in force",
             );
         }
     }
@@ -192,20 +243,7 @@ impl Machine<'_> {
 
     /// Whether a cutting block has its feed; says what is missing.
     pub(super) fn feed_is_there<S: Follow>(&mut self, block: &Block, out: &mut Out<'_, S>) -> bool {
-        if self.state.feed_mode.is_none() {
-            self.assume(
-                2,
-                out,
-                "none of G93, G94, G95 before the first cut: the feed mode is left to the control's setting",
-            );
-        }
-        if !self.state.path_stated {
-            self.assume(
-                3,
-                out,
-                "neither G61 nor G64 P before the first cut: how far corners are cut is left to the control",
-            );
-        }
+        self.cut_assumptions(out);
         let mode = self.state.feed_mode.unwrap_or(FeedMode::PerMinute);
         if mode == FeedMode::InverseTime && !block.has(b'F') {
             out.fault(format!("{}: F word missing with inverse time motion", self.rules.no_feed));
@@ -237,6 +275,7 @@ impl Machine<'_> {
     ) {
         let z = (from[2], target.to[2]);
         let feed = if rapid { None } else { self.path_feed(&path, &from, target) };
+        let in_cycle = matches!(self.state.motion, Mode::Cycle(_));
         let known = self.known_before(target);
         let cut = TraceMove {
             path,
@@ -248,6 +287,9 @@ impl Machine<'_> {
             tool: self.state.tool,
             known,
             length_offset: self.state.length,
+            coolant: self.state.coolant,
+            work_offset: self.state.work_offset,
+            in_cycle,
             path_tolerance: self.state.path_tolerance,
         };
         self.arrive(target);
@@ -265,22 +307,21 @@ impl Machine<'_> {
     fn path_feed(&self, path: &TracePath, from: &[f64; 4], target: &Target) -> Option<f64> {
         let feed = self.state.feed?;
         let per_minute = match self.state.feed_mode.unwrap_or(FeedMode::PerMinute) {
-            FeedMode::InverseTime => return Some(feed * super::length::along(path, target.to[2] - from[2])),
+            FeedMode::InverseTime => return Some(feed * along(path, target.to[2] - from[2])),
             FeedMode::PerRevolution => feed * self.state.speed,
             FeedMode::PerMinute => feed,
         };
         let TracePath::Spiral { .. } = path else { return Some(per_minute) };
         let (dx, dz, turn) = (target.to[0] - from[0], target.to[2] - from[2], target.to[3] - from[3]);
-        let linear = crate::math::hypot(dx, dz);
-        // LinuxCNC: F is the speed of the linear axes if one of them moves, else degrees a minute. Fanuc: 1 deg
-        // counts as one unit of length. `per_minute` has been scaled by the unit.
+        let linear = hypot(dx, dz);
+        // `per_minute` has been scaled by the unit.
         let turn = turn * self.unit();
-        let reference = match (self.rules.blends, linear > 0.0) {
-            (true, true) => linear,
-            (true, false) => turn.abs(),
-            (false, _) => crate::math::hypot(linear, turn),
+        let reference = match self.rules.rotary_feed {
+            RotaryFeed::LinearAxes if linear > 0.0 => linear,
+            RotaryFeed::LinearAxes => turn.abs(),
+            RotaryFeed::UnitsAsDegrees => hypot(linear, turn),
         };
-        Some(per_minute * super::length::along(path, dz) / reference)
+        Some(per_minute * along(path, dz) / reference)
     }
 
     /// The control now stands at the target.
@@ -307,7 +348,7 @@ impl Machine<'_> {
     fn reference<S: Follow>(&mut self, block: &Block, used: &mut u32, out: &mut Out<'_, S>) {
         *used |= self.axis_words();
         let target = self.target(block, out);
-        if !target.any() && self.rules.least_increments {
+        if !target.any() && self.rules.reference_needs_axis {
             return out.fault("G28 without an axis word");
         }
         let from = self.departure(&target);
@@ -326,15 +367,11 @@ impl Machine<'_> {
         }
     }
 
-    /// Whether the working plane is XY; says what is wrong when it is not.
-    pub(super) fn in_xy_plane<S: Follow>(&mut self, what: &str, out: &mut Out<'_, S>) -> bool {
+    /// The working plane, which a program must have chosen.
+    pub(super) fn stated_plane<S: Follow>(&mut self, out: &mut Out<'_, S>) -> Plane {
         if !self.state.plane_stated {
-            self.assume(4, out, "no plane (G17) before the first arc: it is left to the control's setting");
+            self.assume(4, out, "no plane (G17) before the first arc or cycle: it is left to the control's setting");
         }
-        let fine = self.state.plane == Plane::Xy;
-        if !fine {
-            out.fault(format!("{what} outside the XY plane (G17)"));
-        }
-        fine
+        self.state.plane
     }
 }

@@ -1,0 +1,64 @@
+//! Okuma OSP machining centres, from a published post and programming manuals.
+
+use super::super::codes::{CycleKind, G, Group, M, Mode};
+use super::super::rules::{Cycles, Dwell, Frame, Rules, Unpointed};
+use super::fanuc;
+
+/// Work offsets are G15 H, tool lengths G56 H (G53 cancels them), cycles return to the height of G71 by M53.
+pub(super) const RULES: Rules = Rules {
+    name: "okuma",
+    frame: Frame::Name,
+    whole_numbers: b"NTDHSM",
+    unpointed: Unpointed::Setting,
+    largest_n: 99_999.0,
+    most_m: 8,
+    g,
+    m,
+    dwell: &[(b'F', Dwell::Seconds)],
+    cycles: Some(&CYCLES),
+    length_needs_h: true,
+    radius_wins: false,
+    largest_difference: |_, _| 0.02,
+    arc_complaint: "alarm B 2252, the arc's radii differ",
+    no_feed: "no feed commanded",
+    ..fanuc::RULES
+};
+
+const CYCLES: Cycles = Cycles {
+    dwell: Dwell::Seconds,
+    with_dwell: &[
+        CycleKind::Dwell,
+        CycleKind::Tap { left: false },
+        CycleKind::Tap { left: true },
+        CycleKind::BoreDwell,
+        CycleKind::Fine,
+    ],
+    return_height: true,
+    repeats: b'L',
+    ..fanuc::CYCLES
+};
+
+fn g(tenths: u16) -> Option<G> {
+    Some(match tenths {
+        150 => G::WorkOffset(0),
+        160 => G::MachineCoordinates,
+        300 => G::Reference,
+        560 => G::LengthOn,
+        530 => G::LengthOff,
+        710 => G::ReturnHeight,
+        // Feed and modes that have no effect on the path in the form a safe start gives them.
+        640 => G::NoEffect(Group::Path),
+        930 | 541 | 62 | 280 | 430 | 490 | 540 | 550 | 570..=590 | 980 | 990 => return None,
+        800 => G::Motion(Mode::None),
+        1310 => G::NoEffect(Group::Other),
+        _ => return fanuc::g(tenths),
+    })
+}
+
+fn m(tenths: u16) -> Option<M> {
+    Some(match tenths {
+        530 | 540 => M::CycleReturn { to_r: tenths == 540 },
+        520 => M::Unfollowed,
+        _ => return fanuc::m(tenths),
+    })
+}

@@ -1,0 +1,313 @@
+//! Drilling cycles, worked off as the moves the machine makes.
+//!
+//! The heights: the initial one is where Z stood when the first cycle of a run was called; R is where feed begins. After
+//! a hole the cutter goes back to one or the other (G98, G99).
+
+use super::block::{Block, bit};
+use super::codes::{CycleKind, Plane};
+use super::machine::Machine;
+use super::motion::{ROTARY, Target};
+use super::rules::Cycles;
+use super::state::Plan;
+use crate::readback::out::Out;
+use crate::readback::{EventKind, FeedMode, Follow, TracePath};
+
+/// Most pecks of a hole, and most repeats of a block.
+const MOST_PECKS: f64 = 10_000.0;
+const MOST_REPEATS: f64 = 9999.0;
+
+/// Words of a cycle that stay in force with it.
+#[derive(Debug, Default)]
+pub(in crate::readback) struct Sticky {
+    /// Back to R after a hole, or to the initial height.
+    pub to_r: Option<bool>,
+    /// Height of G71, mm (Okuma).
+    pub height: Option<f64>,
+    initial: f64,
+    r: Option<f64>,
+    z: Option<f64>,
+    q: Option<f64>,
+    p: Option<f64>,
+}
+
+impl Sticky {
+    /// A cycle code: Q and P belong to it alone; a new run of cycles also forgets its heights.
+    pub(super) fn begin(&mut self, another: bool, initial: Option<f64>) {
+        if another {
+            self.q = None;
+            self.p = None;
+        }
+        if let Some(initial) = initial {
+            self.initial = initial;
+            self.r = None;
+            self.z = None;
+        }
+    }
+}
+
+/// A hole as the cycle's words describe it, mm and seconds.
+struct Hole {
+    kind: CycleKind,
+    r: f64,
+    z: f64,
+    back: f64,
+    peck: Option<f64>,
+    clearance: f64,
+    dwell: f64,
+}
+
+impl Machine<'_> {
+    /// G71 Z: where M53 returns to.
+    pub(super) fn return_height<S: Follow>(&mut self, block: &Block, used: &mut u32, out: &mut Out<'_, S>) {
+        *used |= bit(b'Z');
+        match self.length(block, b'Z') {
+            Some(z) => self.state.cycle.height = Some(z),
+            None => out.fault("G71 without the height Z"),
+        }
+    }
+
+    /// A block with a cycle in force.
+    pub(super) fn cycle<S: Follow>(
+        &mut self,
+        block: &Block,
+        kind: CycleKind,
+        plan: &Plan,
+        used: &mut u32,
+        out: &mut Out<'_, S>,
+    ) {
+        let Some(cycles) = self.rules.cycles else { return };
+        *used |= self.axis_words() | bit(b'R') | bit(b'Q') | bit(cycles.repeats);
+        *used |= if cycles.with_dwell.contains(&kind) { bit(b'P') } else { 0 };
+        *used |= if cycles.clearance_word { bit(b'D') } else { 0 };
+        if !self.cycle_allowed(block, plan, cycles, out) {
+            return;
+        }
+        let (Some(hole), Some(repeats)) = (self.hole(block, kind, cycles, out), repeats(block, cycles, out)) else {
+            return;
+        };
+        let place = self.target(block, out);
+        let step = [0, 1].map(|a| place.to[a] - self.state.position[a]);
+        let incremental = self.state.incremental == Some(true);
+        for i in 0..repeats {
+            let mut at = place;
+            if incremental && i > 0 {
+                at.to[0] = self.state.position[0] + step[0];
+                at.to[1] = self.state.position[1] + step[1];
+            }
+            self.drill(&hole, &at, out);
+        }
+    }
+
+    fn cycle_allowed<S: Follow>(
+        &mut self,
+        block: &Block,
+        plan: &Plan,
+        cycles: &Cycles,
+        out: &mut Out<'_, S>,
+    ) -> bool {
+        if self.state.feed_mode == Some(FeedMode::InverseTime) {
+            out.fault("a drilling cycle under G93");
+            return false;
+        }
+        if self.stated_plane(out) != Plane::Xy {
+            out.fault("a drilling cycle outside the XY plane (G17), which this reader does not follow");
+            return false;
+        }
+        if self.setup.rotary_letter().is_some_and(|l| block.has(l)) {
+            out.fault("a rotary axis in a drilling cycle");
+            return false;
+        }
+        let moves = block.seen & (bit(b'X') | bit(b'Y') | bit(b'Z')) != 0;
+        if !moves && cycles.needs_motion {
+            out.fault("a drilling cycle without X, Y or Z");
+            return false;
+        }
+        if !moves && plan.motion.is_some() && !block.has(b'R') {
+            return false;
+        }
+        self.feed_is_there(block, out)
+    }
+
+    /// The hole of this block; what is not in it stays from the block before.
+    fn hole<S: Follow>(
+        &mut self,
+        block: &Block,
+        kind: CycleKind,
+        cycles: &Cycles,
+        out: &mut Out<'_, S>,
+    ) -> Option<Hole> {
+        let incremental = self.state.incremental == Some(true);
+        let (r, z) = (self.length(block, b'R'), self.length(block, b'Z'));
+        let q = self.length(block, b'Q');
+        let speed = self.state.speed;
+        let p = block.get(b'P').and_then(|p| cycles.dwell.seconds(p, block.point(b'P'), speed));
+        let now = &mut self.state.cycle;
+        now.r = r.map(|r| if incremental { now.initial + r } else { r }).or(now.r);
+        let Some(level) = now.r else {
+            out.fault("a drilling cycle without R");
+            return None;
+        };
+        now.z = z.map(|z| if incremental { level + z } else { z }).or(now.z);
+        now.q = q.or(now.q);
+        now.p = p.or(now.p);
+        let Some(bottom) = now.z else {
+            out.fault("a drilling cycle without Z");
+            return None;
+        };
+        if !self.state.known[2] {
+            out.fault("a drilling cycle from a height that is not known");
+            return None;
+        }
+        if level < bottom {
+            let u = self.unit();
+            out.fault(format!("R{} is below the bottom Z{} of the hole", level / u, bottom / u));
+            return None;
+        }
+        let peck = self.peck(kind, out)?;
+        let dwell = self.state.cycle.p.filter(|_| cycles.with_dwell.contains(&kind)).unwrap_or(0.0);
+        let back = self.height_after(level, cycles, out)?;
+        let word = if cycles.clearance_word { self.length(block, b'D') } else { None };
+        let clearance = word.unwrap_or(cycles.clearance);
+        Some(Hole { kind, r: level, z: bottom, back, peck, clearance, dwell })
+    }
+
+    /// The peck of G73 and G83, which must be there and lead down; `None` when it isn't.
+    #[allow(clippy::option_option)]
+    fn peck<S: Follow>(&self, kind: CycleKind, out: &mut Out<'_, S>) -> Option<Option<f64>> {
+        if !matches!(kind, CycleKind::Deep | CycleKind::ChipBreak) {
+            return Some(None);
+        }
+        let Some(q) = self.state.cycle.q else {
+            out.fault("a peck drilling cycle without Q");
+            return None;
+        };
+        let depth = self.state.cycle.r.unwrap_or_default() - self.state.cycle.z.unwrap_or_default();
+        if q <= 0.0 || depth / q > MOST_PECKS {
+            out.fault(format!("a peck of Q{} {}", q / self.unit(), self.unit_name()));
+            return None;
+        }
+        Some(Some(q))
+    }
+
+    /// Where the cutter goes after a hole.
+    fn height_after<S: Follow>(&mut self, r: f64, cycles: &Cycles, out: &mut Out<'_, S>) -> Option<f64> {
+        let initial = self.state.cycle.initial;
+        match self.state.cycle.to_r {
+            Some(true) => Some(r),
+            Some(false) if cycles.return_height => {
+                let height = self.state.cycle.height;
+                if height.is_none() {
+                    out.fault("M53 without a height of G71");
+                }
+                height
+            }
+            None if cycles.return_height => {
+                out.fault("a drilling cycle without M53 or M54");
+                None
+            }
+            stated => {
+                if stated.is_none() {
+                    self.assume(8, out, "neither G98 nor G99 before the first cycle: it is left to the control's setting");
+                }
+                if initial < r && !cycles.higher_return {
+                    let u = self.unit();
+                    out.fault(format!("the height Z{} before the cycle is below R{}", initial / u, r / u));
+                }
+                Some(initial.max(r))
+            }
+        }
+    }
+
+    fn drill<S: Follow>(&mut self, hole: &Hole, at: &Target, out: &mut Out<'_, S>) {
+        if self.state.position[2] < hole.r {
+            self.vertical(hole.r, true, out);
+        }
+        self.across(at, out);
+        self.vertical(hole.r, true, out);
+        let direction = self.state.direction;
+        match hole.kind {
+            CycleKind::Drill | CycleKind::Dwell | CycleKind::Bore | CycleKind::BoreDwell => {
+                self.vertical(hole.z, false, out);
+            }
+            CycleKind::Deep => self.pecks(hole, true, out),
+            CycleKind::ChipBreak => self.pecks(hole, false, out),
+            CycleKind::Tap { left } => {
+                if (direction < 0.0) != left {
+                    out.fault(if left { "G74 with the spindle not at M4" } else { "G84 with the spindle not at M3" });
+                }
+                self.vertical(hole.z, false, out);
+                self.state.direction = -direction;
+            }
+            CycleKind::BoreStop | CycleKind::Fine => {
+                self.vertical(hole.z, false, out);
+                self.state.direction = 0.0;
+            }
+        }
+        if hole.dwell > 0.0 {
+            out.event(EventKind::Dwell(hole.dwell));
+        }
+        let at_feed = matches!(hole.kind, CycleKind::Tap { .. } | CycleKind::Bore | CycleKind::BoreDwell);
+        if at_feed {
+            self.vertical(hole.r, false, out);
+            self.state.direction = direction;
+        }
+        self.vertical(hole.back, true, out);
+        self.state.direction = direction;
+    }
+
+    /// Down in pecks: out of the hole after each, or back by a little.
+    fn pecks<S: Follow>(&mut self, hole: &Hole, out_of_hole: bool, out: &mut Out<'_, S>) {
+        let peck = hole.peck.unwrap_or(f64::INFINITY);
+        let mut depth = hole.r;
+        loop {
+            depth -= peck;
+            // What is left over by rounding is no peck of its own.
+            if depth <= hole.z + 1e-9 {
+                return self.vertical(hole.z, false, out);
+            }
+            self.vertical(depth, false, out);
+            if out_of_hole {
+                self.vertical(hole.r, true, out);
+            }
+            self.vertical((depth + hole.clearance).min(hole.r), true, out);
+        }
+    }
+
+    fn vertical<S: Follow>(&mut self, z: f64, rapid: bool, out: &mut Out<'_, S>) {
+        let mut to = self.state.position;
+        to[2] = z;
+        self.leg(Target { to, moved: [false, false, true, false] }, rapid, out);
+    }
+
+    fn across<S: Follow>(&mut self, at: &Target, out: &mut Out<'_, S>) {
+        let mut to = self.state.position;
+        to[0] = at.to[0];
+        to[1] = at.to[1];
+        self.leg(Target { to, moved: [at.moved[0], at.moved[1], false, false] }, true, out);
+    }
+
+    /// A straight leg; none where the cutter stands already.
+    fn leg<S: Follow>(&mut self, target: Target, rapid: bool, out: &mut Out<'_, S>) {
+        let from = self.departure(&target);
+        let all_known = target.moved.iter().zip(&self.state.known).all(|(m, k)| !m || *k);
+        if from == target.to && all_known {
+            return;
+        }
+        let place = |p: &[f64; 4]| self.in_part(p[0], p[1], p[ROTARY]);
+        let path = TracePath::Line { from: place(&from), to: place(&target.to) };
+        self.emit(path, from, &target, rapid, out);
+    }
+}
+
+/// How often the block is to be worked off; 0 only stores its words.
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+fn repeats<S: Follow>(block: &Block, cycles: &Cycles, out: &mut Out<'_, S>) -> Option<u32> {
+    match block.get(cycles.repeats) {
+        None => Some(1),
+        Some(n) if n.fract() == 0.0 && (0.0..=MOST_REPEATS).contains(&n) => Some(n as u32),
+        Some(n) => {
+            out.fault(format!("{}{n} is not a number of repeats", char::from(cycles.repeats)));
+            None
+        }
+    }
+}
