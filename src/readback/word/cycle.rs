@@ -31,17 +31,13 @@ pub(in crate::readback) struct Sticky {
 }
 
 impl Sticky {
-    /// A cycle code: Q and P belong to it alone; a new run of cycles also forgets its heights.
+    /// Another cycle code needs its own words (some controls would keep the last ones); a new run of cycles has a new
+    /// initial height.
     pub(super) fn begin(&mut self, another: bool, initial: Option<f64>) {
         if another {
-            self.q = None;
-            self.p = None;
+            (self.r, self.z, self.q, self.p) = (None, None, None, None);
         }
-        if let Some(initial) = initial {
-            self.initial = initial;
-            self.r = None;
-            self.z = None;
-        }
+        self.initial = initial.unwrap_or(self.initial);
     }
 }
 
@@ -78,7 +74,6 @@ impl Machine<'_> {
         let Some(cycles) = self.rules.cycles else { return };
         *used |= self.axis_words() | bit(b'R') | bit(b'Q') | bit(cycles.repeats);
         *used |= if cycles.with_dwell.contains(&kind) { bit(b'P') } else { 0 };
-        *used |= if cycles.clearance_word { bit(b'D') } else { 0 };
         if !self.cycle_allowed(block, plan, cycles, out) {
             return;
         }
@@ -166,8 +161,7 @@ impl Machine<'_> {
         let peck = self.peck(kind, out)?;
         let dwell = self.state.cycle.p.filter(|_| cycles.with_dwell.contains(&kind)).unwrap_or(0.0);
         let back = self.height_after(level, cycles, out)?;
-        let word = if cycles.clearance_word { self.length(block, b'D') } else { None };
-        let clearance = word.unwrap_or(cycles.clearance);
+        let clearance = cycles.clearance;
         Some(Hole { kind, r: level, z: bottom, back, peck, clearance, dwell })
     }
 

@@ -92,8 +92,6 @@ pub(in crate::readback) struct Cycles {
     /// The distance by which chips are broken, and before the last depth at which the rapid down stops, mm: a setting of
     /// the control at its usual value.
     pub clearance: f64,
-    /// A `D` word gives that distance.
-    pub clearance_word: bool,
     /// The height of return is said by G71 Z and M53 (Okuma), not by G98.
     pub return_height: bool,
     /// Letter of the repeat count.

@@ -67,7 +67,6 @@ pub(super) const CYCLES: Cycles = Cycles {
         CycleKind::Fine,
     ],
     clearance: 0.5,
-    clearance_word: false,
     return_height: false,
     repeats: b'K',
     needs_motion: false,

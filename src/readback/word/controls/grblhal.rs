@@ -16,7 +16,6 @@ pub(super) const RULES: Rules = Rules {
 
 const CYCLES: Cycles = Cycles {
     with_dwell: &[CycleKind::Dwell, CycleKind::BoreStop, CycleKind::BoreDwell],
-    clearance_word: false,
     dwell: Dwell::Seconds,
     ..linuxcnc::CYCLES
 };

@@ -70,7 +70,7 @@ fn largest_difference(radius: f64, _inch: bool) -> f64 {
     (0.001 * radius).clamp(0.005, 0.5)
 }
 
-/// The distance back is the setting `[RS274NGC] PARAMETER_G83_PECK_CLEARANCE`, a D word overrides it.
+/// The distance back is a setting of 0.010 in; newer versions take a D word for it, which older ones refuse.
 pub(super) const CYCLES: Cycles = Cycles {
     dwell: Dwell::Seconds,
     with_dwell: &[
@@ -81,7 +81,6 @@ pub(super) const CYCLES: Cycles = Cycles {
         CycleKind::BoreDwell,
     ],
     clearance: 0.254,
-    clearance_word: true,
     return_height: false,
     repeats: b'L',
     needs_motion: true,

@@ -17,7 +17,6 @@ pub(super) const RULES: Rules = Rules {
     unpointed: Unpointed::Whole,
     most_m: 4,
     g,
-    cycles: Some(&CYCLES),
     arc_turns: false,
     arc_mode_stated: true,
     feed_reset: FeedReset::Change,
@@ -30,12 +29,11 @@ pub(super) const RULES: Rules = Rules {
 pub(super) const MILLISECONDS: Rules = Rules {
     name: "mach3-ms",
     dwell: &[(b'P', Dwell::Milliseconds)],
-    cycles: Some(&CYCLES_MILLISECONDS),
+    cycles: Some(&CYCLES),
     ..RULES
 };
 
-const CYCLES: Cycles = Cycles { clearance_word: false, ..linuxcnc::CYCLES };
-const CYCLES_MILLISECONDS: Cycles = Cycles { dwell: Dwell::Milliseconds, ..CYCLES };
+const CYCLES: Cycles = Cycles { dwell: Dwell::Milliseconds, ..linuxcnc::CYCLES };
 
 fn g(tenths: u16) -> Option<G> {
     Some(match tenths {
