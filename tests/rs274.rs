@@ -154,7 +154,11 @@ fn in_space(plane: Plane, first: f64, second: f64, level: f64) -> Point3 {
 }
 
 fn setup() -> MachineSetup {
-    MachineSetup { rotary: Some(Rotary { letter: 'C', reversed: false }), tools: Some(vec![1, 2]), ..MachineSetup::default() }
+    MachineSetup {
+        rotary: Some(Rotary { letter: 'C', reversed: false }),
+        tools: Some(vec![1, 2]),
+        ..MachineSetup::default()
+    }
 }
 
 /// Both read the program; the events agree one by one.
@@ -240,7 +244,10 @@ fn both_read_the_same_motion() {
         ("xz", "G1 Z-1\nG18 G3 X0 Z9 I-10\nG2 X10 Z-1 K-10\nG2 X10 Z-1 I-4 K3\nG3 X4 Z5 R9 Y3\nG17"),
         ("yz", "G19 G3 Y10 Z15 J10\nG2 Y0 Z5 K-10\nG2 J-4 K3\nG3 Y4 Z5 R9 X3\nG2 Y4 Z5 J2 X8 P3\nG17"),
         ("drilling", "G98 G81 X1 Y2 Z-3 R2\nX4\nG99 Y6\nZ-4 X7\nR1 X8\nG80\nG0 Z5"),
-        ("cycle dwell", "G98 G82 X1 Y2 Z-3 R2 P0.5\nX4\nG89 X5 Z-2 R3 P0.25\nG85 X6 Z-3 R2\nG80\nG0 Z6\nG86 X5 Z-1 R2 P1\nG80"),
+        (
+            "cycle dwell",
+            "G98 G82 X1 Y2 Z-3 R2 P0.5\nX4\nG89 X5 Z-2 R3 P0.25\nG85 X6 Z-3 R2\nG80\nG0 Z6\nG86 X5 Z-1 R2 P1\nG80",
+        ),
         ("pecks", "G98 G83 X1 Y2 Z-5 R2 Q3\nX5\nG73 X6 Z-4 R2 Q2\nG80\nG0 Z5"),
         ("below R", "G0 Z1\nG98 G81 X1 Y2 Z-3 R2\nX4\nG80\nG0 Z5"),
         ("rows", "G91 G81 X1 Y2 Z-5 R-3 L3\nG90 G80 G0 Z5"),

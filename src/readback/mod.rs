@@ -19,7 +19,7 @@ mod word;
 #[cfg(test)]
 pub(crate) use curve::point as nurbs_point;
 pub use trace::{
-    EventKind, FeedMode, Fault, MOST_FAULTS, Tilted, Trace, TraceEvent, TraceMove, TracePath, Washing,
+    EventKind, Fault, FeedMode, MOST_FAULTS, Tilted, Trace, TraceEvent, TraceMove, TracePath, Washing,
 };
 
 /// The machine about the control, as far as a program's meaning depends on it.

@@ -64,7 +64,8 @@ impl Machine<'_> {
         let target = self.target(block, out);
         let [a, b] = plane.letters(AXES);
         if self.rules.arc_needs_end && block.seen & (bit(a) | bit(b)) == 0 {
-            let code = if target.any() { "error:32, no axis words in plane" } else { "error:26, no axis words" };
+            let code =
+                if target.any() { "error:32, no axis words in plane" } else { "error:26, no axis words" };
             out.fault(format!("{code}: an arc needs {} or {}", char::from(a), char::from(b)));
             return self.arrive(&target);
         }
@@ -107,7 +108,13 @@ impl Machine<'_> {
             Some(_) if offsets && !self.rules.radius_wins => return say("R and I J in one arc"),
             Some(radius) => self.centre_by_radius(start, end, radius, clockwise)?,
             None if offsets => self.centre_by_offsets(block, [first, second], start, out)?,
-            None => return say(if plane == Plane::Xy { "an arc without R, I and J" } else { "an arc without R and offsets in its plane" }),
+            None => {
+                return say(if plane == Plane::Xy {
+                    "an arc without R, I and J"
+                } else {
+                    "an arc without R and offsets in its plane"
+                });
+            }
         };
         self.radius_check(start, end, centre)?;
         let turns = self.turns(block, used, out);
@@ -121,7 +128,13 @@ impl Machine<'_> {
         let towards = drawn.end - drawn.centre;
         let beside = (towards.norm() - radius).abs() > ON_CIRCLE;
         if self.rules.arc_end == ArcEnd::Spiral || !beside {
-            return self.emit(self.arc_path(drawn, drawn.end, target), self.state.position, target, false, out);
+            return self.emit(
+                self.arc_path(drawn, drawn.end, target),
+                self.state.position,
+                target,
+                false,
+                out,
+            );
         }
         let reached = drawn.centre + towards * (radius / towards.norm());
         let [a, b, _] = drawn.plane.axes();
@@ -177,7 +190,11 @@ impl Machine<'_> {
         out: &mut Out<'_, S>,
     ) -> Result<Point2, Refusal> {
         if !self.state.arc_mode_stated {
-            self.assume(7, out, "neither G90.1 nor G91.1 before the first arc: what I J K count from is a setting");
+            self.assume(
+                7,
+                out,
+                "neither G90.1 nor G91.1 before the first arc: what I J K count from is a setting",
+            );
         }
         let [first, second] = letters.map(|l| self.length(block, l));
         if self.state.arc_incremental {

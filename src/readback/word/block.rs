@@ -101,7 +101,12 @@ impl Block {
 
 /// Cuts `line` (without its line end) into words. What the control would refuse goes to `fault`; the words
 /// that could be read are in the block all the same.
-pub(in crate::readback) fn read(line: &[u8], rules: &Rules, block: &mut Block, fault: &mut dyn FnMut(String)) {
+pub(in crate::readback) fn read(
+    line: &[u8],
+    rules: &Rules,
+    block: &mut Block,
+    fault: &mut dyn FnMut(String),
+) {
     block.clear();
     let line = if rules.checksum { without_checksum(line, fault) } else { line };
     let mut at = if rules.frame == Frame::Name { program_name(line, block) } else { 0 };
@@ -138,7 +143,8 @@ fn without_checksum<'l>(line: &'l [u8], fault: &mut dyn FnMut(String)) -> &'l [u
     let Some(star) = code.iter().rposition(|&c| c == b'*') else { return line };
     let (body, sum) = code.split_at(star);
     let wanted = body.iter().fold(0u8, |sum, c| sum ^ c);
-    let said = core::str::from_utf8(sum.get(1..).unwrap_or_default()).ok().and_then(|s| s.trim().parse().ok());
+    let said =
+        core::str::from_utf8(sum.get(1..).unwrap_or_default()).ok().and_then(|s| s.trim().parse().ok());
     if said != Some(wanted) {
         fault(format!("checksum mismatch: the line's is {wanted}"));
     }

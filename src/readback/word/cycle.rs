@@ -77,7 +77,8 @@ impl Machine<'_> {
         if !self.cycle_allowed(block, plan, cycles, out) {
             return;
         }
-        let (Some(hole), Some(repeats)) = (self.hole(block, kind, cycles, out), repeats(block, cycles, out)) else {
+        let (Some(hole), Some(repeats)) = (self.hole(block, kind, cycles, out), repeats(block, cycles, out))
+        else {
             return;
         };
         let place = self.target(block, out);
@@ -201,7 +202,11 @@ impl Machine<'_> {
             }
             stated => {
                 if stated.is_none() {
-                    self.assume(8, out, "neither G98 nor G99 before the first cycle: it is left to the control's setting");
+                    self.assume(
+                        8,
+                        out,
+                        "neither G98 nor G99 before the first cycle: it is left to the control's setting",
+                    );
                 }
                 if initial < r && !cycles.higher_return {
                     let u = self.unit();
@@ -227,7 +232,11 @@ impl Machine<'_> {
             CycleKind::ChipBreak => self.pecks(hole, false, out),
             CycleKind::Tap { left } => {
                 if (direction < 0.0) != left {
-                    out.fault(if left { "G74 with the spindle not at M4" } else { "G84 with the spindle not at M3" });
+                    out.fault(if left {
+                        "G74 with the spindle not at M4"
+                    } else {
+                        "G84 with the spindle not at M3"
+                    });
                 }
                 self.vertical(hole.z, false, out);
                 self.state.direction = -direction;

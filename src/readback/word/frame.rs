@@ -39,7 +39,9 @@ impl Machine<'_> {
             Frame::OptionalNumber if first && number_only => self.number_range(block, 99_999.0, out),
             Frame::Name if first => {
                 if !block.name {
-                    out.fault("the program does not start with its name, O and up to four letters and digits");
+                    out.fault(
+                        "the program does not start with its name, O and up to four letters and digits",
+                    );
                 }
                 return block.name;
             }

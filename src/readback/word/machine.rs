@@ -169,7 +169,8 @@ impl<'a> Machine<'a> {
         }
         if let Some((mm, inch)) = self.rules.largest_length {
             let largest = if self.state.inch == Some(true) { inch } else { mm };
-            for letter in LENGTHS.iter().copied().filter(|&l| block.get(l).is_some_and(|v| v.abs() > largest)) {
+            for letter in LENGTHS.iter().copied().filter(|&l| block.get(l).is_some_and(|v| v.abs() > largest))
+            {
                 let value = block.get(letter).unwrap_or_default();
                 out.fault(format!("{}{value} has more digits than the control takes", char::from(letter)));
             }
@@ -224,7 +225,8 @@ impl<'a> Machine<'a> {
             Some(0) => {
                 let letters = [b'P', b'H', b'E'];
                 let word = letters.into_iter().find_map(|l| block.get(l).map(|v| (l, v)));
-                let Some((letter, value)) = word.filter(|(_, v)| v.fract() == 0.0 && (1.0..=999.0).contains(v))
+                let Some((letter, value)) =
+                    word.filter(|(_, v)| v.fract() == 0.0 && (1.0..=999.0).contains(v))
                 else {
                     return out.fault("a work offset without its number");
                 };
@@ -259,7 +261,9 @@ impl<'a> Machine<'a> {
     /// A feed of one mode means nothing in another: it is gone when the mode changes, on some controls at every word.
     fn feed_mode(&mut self, mode: Option<FeedMode>) {
         let Some(mode) = mode else { return };
-        if self.state.feed_mode.is_some_and(|now| now != mode) || self.rules.feed_reset == FeedReset::EveryWord {
+        if self.state.feed_mode.is_some_and(|now| now != mode)
+            || self.rules.feed_reset == FeedReset::EveryWord
+        {
             self.state.feed = None;
         }
         self.state.feed_mode = Some(mode);
@@ -275,7 +279,10 @@ impl<'a> Machine<'a> {
         self.state.feed = Some(match self.state.feed_mode {
             Some(FeedMode::InverseTime) => {
                 if value > self.rules.largest_inverse {
-                    out.fault(format!("F{value} under G93, the control takes {}", self.rules.largest_inverse));
+                    out.fault(format!(
+                        "F{value} under G93, the control takes {}",
+                        self.rules.largest_inverse
+                    ));
                 }
                 value
             }

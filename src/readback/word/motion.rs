@@ -370,7 +370,11 @@ impl Machine<'_> {
     /// The working plane, which a program must have chosen.
     pub(super) fn stated_plane<S: Follow>(&mut self, out: &mut Out<'_, S>) -> Plane {
         if !self.state.plane_stated {
-            self.assume(4, out, "no plane (G17) before the first arc or cycle: it is left to the control's setting");
+            self.assume(
+                4,
+                out,
+                "no plane (G17) before the first arc or cycle: it is left to the control's setting",
+            );
         }
         self.state.plane
     }

@@ -62,7 +62,6 @@ pub(in crate::readback) struct State {
     pub assumed: u16,
 }
 
-
 impl State {
     /// A control after power-on.
     pub(super) fn new(rules: &Rules) -> Self {

@@ -1,8 +1,8 @@
 //! Programs written by hand for each control: what they do, and what the controls say to bad ones.
 
 use crate::geom::Point2;
-use crate::readback::*;
 use crate::math::{PI, TAU};
+use crate::readback::*;
 
 fn setup() -> MachineSetup {
     MachineSetup { rotary: Some(Rotary { letter: 'C', reversed: false }), ..MachineSetup::default() }
@@ -193,7 +193,8 @@ fn a_turning_table_makes_spirals() {
         &linuxcnc("G0 C0\nG1 Y1\nG1 X1 C5"),
         &[(10, "the tool must be on the table's X axis")],
     );
-    let reversed = MachineSetup { rotary: Some(Rotary { letter: 'A', reversed: true }), ..MachineSetup::default() };
+    let reversed =
+        MachineSetup { rotary: Some(Rotary { letter: 'A', reversed: true }), ..MachineSetup::default() };
     let text = linuxcnc("G0 A0\nG1 A10");
     let moves = moves_of(run(text.as_bytes(), "linuxcnc", &reversed).expect("known"));
     let TracePath::Spiral { angle, .. } = moves[3].path else { panic!() };

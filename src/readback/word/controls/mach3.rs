@@ -26,12 +26,8 @@ pub(super) const RULES: Rules = Rules {
 };
 
 /// With `G04 Dwell param in Milliseconds` on.
-pub(super) const MILLISECONDS: Rules = Rules {
-    name: "mach3-ms",
-    dwell: &[(b'P', Dwell::Milliseconds)],
-    cycles: Some(&CYCLES),
-    ..RULES
-};
+pub(super) const MILLISECONDS: Rules =
+    Rules { name: "mach3-ms", dwell: &[(b'P', Dwell::Milliseconds)], cycles: Some(&CYCLES), ..RULES };
 
 const CYCLES: Cycles = Cycles { dwell: Dwell::Milliseconds, ..linuxcnc::CYCLES };
 

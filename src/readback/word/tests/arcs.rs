@@ -40,7 +40,9 @@ fn a_helix_about_x_rises_with_its_angle() {
 
 #[test]
 fn extents_of_arcs_hold_their_points() {
-    for (body, seed) in [("G18 G2 X7 Z9 R8", 1), ("G18 G3 X7 Z9 R8", 2), ("G19 G2 Y7 Z1 R-6", 3), ("G19 G3 Y7 Z1 X12 R9", 4)] {
+    for (body, seed) in
+        [("G18 G2 X7 Z9 R8", 1), ("G18 G3 X7 Z9 R8", 2), ("G19 G2 Y7 Z1 R-6", 3), ("G19 G3 Y7 Z1 X12 R9", 4)]
+    {
         let moves = clean("linuxcnc", &linuxcnc(&format!("{body}\nG17")));
         let arc = tilted(&moves[2]);
         for axis in 0..3 {

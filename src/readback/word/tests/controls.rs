@@ -59,7 +59,9 @@ fn arcs_off_their_circle() {
     assert!(!said("mach3", &mach("0005")).iter().any(|m| m.contains("r1")));
     says("mach3", &mach("0015"), "r1");
     says("mach3", &linuxcnc("G2 X0 Y0 I-5 J0"), "neither G90.1 nor G91.1");
-    let okuma = |off: &str| format!("OA1\nG15 H1\nG17 G21 G90 G94\nG0 X10. Y0.\nS100 M3\nF300.\nG2 X0. Y0. I-5.0{off} J0.\nM30\n");
+    let okuma = |off: &str| {
+        format!("OA1\nG15 H1\nG17 G21 G90 G94\nG0 X10. Y0.\nS100 M3\nF300.\nG2 X0. Y0. I-5.0{off} J0.\nM30\n")
+    };
     assert!(!said("okuma", &okuma("09")).iter().any(|m| m.contains("2252")));
     says("okuma", &okuma("11"), "alarm B 2252");
 }
@@ -118,7 +120,8 @@ fn work_offsets_must_be_selected() {
 
 #[test]
 fn coolant_is_in_the_trace() {
-    let washing = |body: &str| clean("linuxcnc", &linuxcnc(body)).last().map(|m| (m.coolant.flood, m.coolant.mist));
+    let washing =
+        |body: &str| clean("linuxcnc", &linuxcnc(body)).last().map(|m| (m.coolant.flood, m.coolant.mist));
     assert_eq!(washing("G1 X1"), Some((false, false)));
     assert_eq!(washing("M8\nG1 X1"), Some((true, false)));
     assert_eq!(washing("M7\nM8\nG1 X1"), Some((true, true)));

@@ -19,7 +19,10 @@ fn legs(control: &str, text: &str, skip: usize) -> Vec<String> {
 
 #[test]
 fn drilling_goes_by_r_and_returns_as_g98_and_g99_say() {
-    let wanted = ["R 1 2 5", "R 1 2 2", "F 1 2 -3", "R 1 2 2", "R 4 2 2", "F 4 2 -3", "R 4 2 2", "R 4 6 2", "F 4 6 -3", "R 4 6 5"];
+    let wanted = [
+        "R 1 2 5", "R 1 2 2", "F 1 2 -3", "R 1 2 2", "R 4 2 2", "F 4 2 -3", "R 4 2 2", "R 4 6 2", "F 4 6 -3",
+        "R 4 6 5",
+    ];
     assert_eq!(legs("linuxcnc", &linuxcnc("G99 G81 X1 Y2 Z-3 R2\nX4\nG98 Y6\nG80"), 2), wanted);
     assert_eq!(legs("fanuc", &fanuc("G99 G81 X1. Y2. Z-3. R2.\nX4.\nG98 Y6.\nG80"), 1), wanted);
     assert_eq!(legs("haas", &fanuc("G99 G81 X1. Y2. Z-3. R2.\nX4.\nG98 Y6.\nG80"), 1), wanted);
@@ -40,13 +43,28 @@ fn a_forgotten_cancel_drills_again() {
 
 #[test]
 fn pecks_leave_the_hole_or_break_the_chip() {
-    let deep = ["R 1 2 5", "R 1 2 2", "F 1 2 -1", "R 1 2 2", "R 1 2 -0.5", "F 1 2 -4", "R 1 2 2", "R 1 2 -3.5", "F 1 2 -5", "R 1 2 5"];
+    let deep = [
+        "R 1 2 5",
+        "R 1 2 2",
+        "F 1 2 -1",
+        "R 1 2 2",
+        "R 1 2 -0.5",
+        "F 1 2 -4",
+        "R 1 2 2",
+        "R 1 2 -3.5",
+        "F 1 2 -5",
+        "R 1 2 5",
+    ];
     assert_eq!(legs("fanuc", &fanuc("G98 G83 X1. Y2. Z-5. R2. Q3.\nG80"), 1), deep);
-    let chip = ["R 1 2 5", "R 1 2 2", "F 1 2 -1", "R 1 2 -0.5", "F 1 2 -4", "R 1 2 -3.5", "F 1 2 -5", "R 1 2 5"];
+    let chip =
+        ["R 1 2 5", "R 1 2 2", "F 1 2 -1", "R 1 2 -0.5", "F 1 2 -4", "R 1 2 -3.5", "F 1 2 -5", "R 1 2 5"];
     assert_eq!(legs("fanuc", &fanuc("G98 G73 X1. Y2. Z-5. R2. Q3.\nG80"), 1), chip);
     let chip = chip.map(|l| l.replace("-0.5", "-0.746").replace("-3.5", "-3.746"));
     assert_eq!(legs("linuxcnc", &linuxcnc("G98 G73 X1 Y2 Z-5 R2 Q3\nG80"), 2), chip);
-    assert_eq!(legs("mach3", &mach("G98 G73 X1 Y2 Z-5 R2 Q7\nG80"), 2), ["R 1 2 5", "R 1 2 2", "F 1 2 -5", "R 1 2 5"]);
+    assert_eq!(
+        legs("mach3", &mach("G98 G73 X1 Y2 Z-5 R2 Q7\nG80"), 2),
+        ["R 1 2 5", "R 1 2 2", "F 1 2 -5", "R 1 2 5"]
+    );
 }
 
 fn mach(body: &str) -> String {
@@ -56,7 +74,8 @@ fn mach(body: &str) -> String {
 #[test]
 fn dwells_count_as_each_control_counts_them() {
     let with = |p: &str| format!("G99 G82 X1. Y2. Z-3. R2. P{p}\nG80");
-    let dwell = |control: &str, text: &str, skip| legs(control, text, skip).into_iter().find(|l| l.starts_with('D'));
+    let dwell =
+        |control: &str, text: &str, skip| legs(control, text, skip).into_iter().find(|l| l.starts_with('D'));
     assert_eq!(dwell("fanuc", &fanuc(&with("1500")), 0), Some("D 1.5".to_owned()));
     assert_eq!(dwell("haas", &fanuc(&with("1500")), 0), Some("D 1.5".to_owned()));
     assert_eq!(dwell("haas", &fanuc(&with("1.5")), 0), Some("D 1.5".to_owned()));
@@ -93,7 +112,8 @@ fn okuma_returns_to_the_height_of_g71() {
 }
 
 fn okuma(body: &str) -> String {
-    format!("OPART\nG15 H1\nG17 G21 G40 G90 G94\nT1 M6\nG56 H1\nG0 X10. Y0. Z5.\nS1000 M3\n{body}\nM30\n").replace("OPART", "OP1")
+    format!("OPART\nG15 H1\nG17 G21 G40 G90 G94\nT1 M6\nG56 H1\nG0 X10. Y0. Z5.\nS1000 M3\n{body}\nM30\n")
+        .replace("OPART", "OP1")
 }
 
 #[test]
