@@ -13,6 +13,7 @@
 
 pub mod arena;
 pub mod cl;
+pub mod clfile;
 pub mod cli;
 pub mod diag;
 pub mod driver;

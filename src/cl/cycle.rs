@@ -15,6 +15,8 @@ pub struct Cycle {
     pub retract: RetractTo,
     /// Largest depth of one peck, mm; asked for by `Deep` and `ChipBreak`.
     pub peck: Option<f64>,
+    /// Depth of the first peck, mm, where it differs.
+    pub first_peck: Option<f64>,
     /// Dwell at the bottom, s.
     pub dwell: Option<f64>,
     /// Feed into the hole. For tapping it follows from the pitch and is not read.

@@ -171,6 +171,9 @@ impl Printer<'_> {
         if let Some(peck) = cycle.peck {
             let _ = write!(text, ", STEP, {}", self.length(peck));
         }
+        if let Some(first) = cycle.first_peck {
+            let _ = write!(text, ", 1STPECK, {}", self.length(first));
+        }
         match cycle.kind {
             CycleKind::Tap { pitch, left } => {
                 let hand = if left { "CCLW" } else { "CLW" };

@@ -107,6 +107,7 @@ impl Emitter<'_> {
             self.lift(&cycle, &hole);
             let step = self.capabilities.grid.linear_step();
             let initial = self.at[2].unwrap_or(hole.initial);
+            let peck = self.one_peck(&cycle).map(|p| ((p / step).round() as i64).max(1));
             let index = self.cycles.len();
             self.cycles.push(target::Cycle {
                 kind: cycle.kind,
@@ -115,7 +116,7 @@ impl Emitter<'_> {
                 clearance: hole.clearance,
                 initial,
                 retract: cycle.retract,
-                peck: cycle.peck.map(|p| ((p / step).round() as i64).max(1)),
+                peck,
                 dwell: cycle.dwell,
                 feed,
             });
@@ -133,6 +134,18 @@ impl Emitter<'_> {
             RetractTo::Initial => self.cycles.last().map_or(hole.initial, |c| c.initial),
         };
         self.at = [Some(hole.x), Some(hole.y), Some(after), self.at[3]];
+    }
+
+    /// Depth of all pecks of a cycle that is kept: the least that is asked for.
+    fn one_peck(&mut self, cycle: &Cycle) -> Option<f64> {
+        let peck = cycle.peck?;
+        let Some(first) = cycle.first_peck.filter(|f| (f - peck).abs() > 1e-9) else { return Some(peck) };
+        let least = first.min(peck);
+        let message = format!(
+            "the cycle has one depth of cut: {least} mm for all pecks in place of {first} mm for the first and {peck} mm for the others"
+        );
+        self.complain(&codes::lowering::ONE_PECK, message);
+        Some(least)
     }
 
     /// Up to the level at which the cutter goes over the next hole, if it is below.
@@ -193,9 +206,11 @@ impl Emitter<'_> {
         let least = (whole / MOST_PECKS).max(1);
         let peck = cycle.peck.map_or(whole, |p| (p / step).round() as i64).max(least);
         let gap = ((PECK_GAP / step).round() as i64).min(peck);
+        let first = cycle.first_peck.map_or(peck, |p| (p / step).round() as i64).max(least);
         let mut z = hole.clearance;
         loop {
-            z = (z - peck).max(hole.bottom);
+            let deeper = if z == hole.clearance { first } else { peck };
+            z = (z - deeper).max(hole.bottom);
             self.line(Position { z, ..over }, feed);
             if z <= hole.bottom {
                 return;

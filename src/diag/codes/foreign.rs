@@ -1,6 +1,119 @@
-//! Codes of CL files and foreign input; none so far.
+//! Codes of CL files and foreign input.
 
 use crate::diag::Code;
 
+/// a CL record is not known.
+pub const UNKNOWN_RECORD: Code = Code {
+    id: "E1001",
+    title: "a CL record is not known",
+    page: include_str!("../../../docs/diagnostics/E1001.md"),
+};
+
+/// a CL record cannot be read.
+pub const BAD_RECORD: Code = Code {
+    id: "E1002",
+    title: "a CL record cannot be read",
+    page: include_str!("../../../docs/diagnostics/E1002.md"),
+};
+
+/// a post word cannot be carried out.
+pub const NOT_CARRIED_OUT: Code = Code {
+    id: "E1003",
+    title: "a post word cannot be carried out",
+    page: include_str!("../../../docs/diagnostics/E1003.md"),
+};
+
+/// the tool axis is off Z.
+pub const TOOL_AXIS: Code = Code {
+    id: "E1004",
+    title: "the tool axis is off Z",
+    page: include_str!("../../../docs/diagnostics/E1004.md"),
+};
+
+/// an arc's points are not on it.
+pub const ARC_OFF: Code = Code {
+    id: "E1005",
+    title: "an arc's points are not on it",
+    page: include_str!("../../../docs/diagnostics/E1005.md"),
+};
+
+/// a drilling cycle is not understood.
+pub const BAD_CYCLE: Code = Code {
+    id: "E1006",
+    title: "a drilling cycle is not understood",
+    page: include_str!("../../../docs/diagnostics/E1006.md"),
+};
+
+/// a curve cannot be read.
+pub const BAD_CURVE: Code = Code {
+    id: "E1007",
+    title: "a curve cannot be read",
+    page: include_str!("../../../docs/diagnostics/E1007.md"),
+};
+
+/// a value for a CL file is not understood.
+pub const BAD_DEFINE: Code = Code {
+    id: "E1008",
+    title: "a value for a CL file is not understood",
+    page: include_str!("../../../docs/diagnostics/E1008.md"),
+};
+
+/// no such producer.
+pub const UNKNOWN_PRODUCER: Code = Code {
+    id: "E1009",
+    title: "no such producer",
+    page: include_str!("../../../docs/diagnostics/E1009.md"),
+};
+
+/// cutter compensation of the control is left out.
+pub const NO_COMPENSATION: Code = Code {
+    id: "W1010",
+    title: "cutter compensation of the control is left out",
+    page: include_str!("../../../docs/diagnostics/W1010.md"),
+};
+
+/// an arc does not go through its points.
+pub const ARC_NOT_TRUSTED: Code = Code {
+    id: "W1011",
+    title: "an arc does not go through its points",
+    page: include_str!("../../../docs/diagnostics/W1011.md"),
+};
+
+/// the first move after a tool change is made at rapid.
+pub const FIRST_AT_RAPID: Code = Code {
+    id: "W1012",
+    title: "the first move after a tool change is made at rapid",
+    page: include_str!("../../../docs/diagnostics/W1012.md"),
+};
+
+/// a curve is cut by lines.
+pub const CURVE_AS_LINES: Code = Code {
+    id: "N1013",
+    title: "a curve is cut by lines",
+    page: include_str!("../../../docs/diagnostics/N1013.md"),
+};
+
+/// not all messages are shown.
+pub const MORE: Code = Code {
+    id: "N1014",
+    title: "not all messages are shown",
+    page: include_str!("../../../docs/diagnostics/N1014.md"),
+};
+
 /// All codes of this area.
-pub const ALL: &[&Code] = &[];
+pub const ALL: &[&Code] = &[
+    &UNKNOWN_RECORD,
+    &BAD_RECORD,
+    &NOT_CARRIED_OUT,
+    &TOOL_AXIS,
+    &ARC_OFF,
+    &BAD_CYCLE,
+    &BAD_CURVE,
+    &BAD_DEFINE,
+    &UNKNOWN_PRODUCER,
+    &NO_COMPENSATION,
+    &ARC_NOT_TRUSTED,
+    &FIRST_AT_RAPID,
+    &CURVE_AS_LINES,
+    &MORE,
+];

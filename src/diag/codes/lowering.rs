@@ -121,6 +121,13 @@ pub const NO_CYCLE: Code = Code {
     page: include_str!("../../../docs/diagnostics/E0608.md"),
 };
 
+/// the cycle has one depth of cut.
+pub const ONE_PECK: Code = Code {
+    id: "N0611",
+    title: "the cycle has one depth of cut",
+    page: include_str!("../../../docs/diagnostics/N0611.md"),
+};
+
 /// All codes of this area.
 pub const ALL: &[&Code] = &[
     &CANNOT_FIT,
@@ -140,4 +147,5 @@ pub const ALL: &[&Code] = &[
     &ARC_AS_LINES,
     &CYCLE_EXPANDED,
     &NO_CYCLE,
+    &ONE_PECK,
 ];

@@ -96,6 +96,7 @@ fn drill(kind: CycleKind, retract: RetractTo) -> Cycle {
         clearance: 2.0,
         retract,
         peck: Some(3.0),
+        first_peck: None,
         dwell: None,
         feed: Feed::PerMinute(120.0),
     }

@@ -1,0 +1,244 @@
+//! Feed, spindle, coolant, dwell, tolerances.
+
+use super::grammar::{Arg, Statement};
+use super::reader::Reader;
+use crate::cl::RecordKind;
+use crate::diag::codes::foreign as codes;
+use crate::ir::{Coolant, Feed, Spindle};
+use crate::units::LengthUnit;
+
+/// Words of a feed per minute, with the length they count in mm; 0: the file's unit.
+const PER_MINUTE: &[(&str, f64)] =
+    &[("MMPM", 1.0), ("IPM", 25.4), ("FPM", 304.8), ("PERMIN", 0.0), ("MPM", 1000.0), ("UPM", 0.0)];
+/// Words of a feed per revolution.
+const PER_REVOLUTION: &[(&str, f64)] = &[("MMPR", 1.0), ("IPR", 25.4), ("PERREV", 0.0), ("UPR", 0.0)];
+
+impl Reader<'_> {
+    /// `-D SPINDL=…` and the like: what the file lacks.
+    pub(super) fn defines(&mut self, defines: &[(String, String)]) {
+        for (name, value) in defines {
+            let number = super::scan::number(value.trim());
+            match (name.to_uppercase().as_str(), number) {
+                ("SPINDL", Some(rpm)) if rpm > 0.0 => {
+                    self.state.spindle = Some(Spindle::On { rpm, clockwise: true });
+                    self.state.last_speed = Some((rpm, true));
+                }
+                ("FEDRAT", Some(feed)) if feed > 0.0 => self.set_feed_number(feed),
+                ("LOADTL", Some(n)) if n >= 0.0 && n.fract() == 0.0 && n < 1e8 => self.load(Some(n as u32)),
+                ("UNITS", _) => {}
+                _ => {
+                    let message = format!(
+                        "-D {name}={value} is not understood: SPINDL, FEDRAT, LOADTL (numbers) and UNITS can be given for a CL file"
+                    );
+                    self.complain(&codes::BAD_DEFINE, message);
+                }
+            }
+        }
+    }
+
+    pub(super) fn process(&mut self, s: &Statement) {
+        match s.major() {
+            "FEDRAT" => self.fedrat(s),
+            "SPINDL" => self.spindl(s),
+            "COOLNT" => self.coolnt(s),
+            "DELAY" | "DWELL" => self.delay(s),
+            "STOP" => self.emit(RecordKind::Stop),
+            "OPSTOP" => self.emit(RecordKind::OptionalStop),
+            "UNITS" | "UNIT" => self.unit(s),
+            "CUTCOM" => self.cutcom(s),
+            word => self.tolerance(word, s),
+        }
+    }
+
+    /// Value and unit in either order.
+    pub(super) fn feed_of(&mut self, value: f64, words: &[&str]) -> Option<Feed> {
+        let scale = |unit: f64| if unit > 0.0 { unit } else { self.state.scale };
+        let find = |table: &[(&str, f64)]| table.iter().find(|(w, _)| words.contains(w)).map(|(_, u)| scale(*u));
+        if !(value > 0.0) {
+            return None;
+        }
+        if let Some(unit) = find(PER_REVOLUTION) {
+            return Some(Feed::PerRevolution(value * unit));
+        }
+        Some(Feed::PerMinute(value * find(PER_MINUTE).unwrap_or(self.state.scale)))
+    }
+
+    fn fedrat(&mut self, s: &Statement) {
+        let words: Vec<&str> = s.words().collect();
+        if words.contains(&"RAPID") {
+            self.state.rapid = true;
+            return;
+        }
+        let known = |w: &&str| PER_MINUTE.iter().chain(PER_REVOLUTION).any(|(k, _)| k == w) || *w == "NOW" || *w == "NEXT";
+        if let Some(unknown) = words.iter().find(|w| !known(w)) {
+            let message = format!("FEDRAT with {unknown} cannot be carried out");
+            return self.soften(&codes::NOT_CARRIED_OUT, message, None);
+        }
+        let feed = s.numbers().first().and_then(|v| self.feed_of(*v, &words));
+        match feed {
+            Some(feed) => self.state.feed = Some(feed),
+            None => self.complain(&codes::BAD_RECORD, "FEDRAT takes a feed greater than 0".to_owned()),
+        }
+    }
+
+    /// A bare feed, in the file's unit a minute.
+    pub(super) fn set_feed_number(&mut self, value: f64) {
+        if let Some(feed) = self.feed_of(value, &[]) {
+            self.state.feed = Some(feed);
+        }
+    }
+
+    pub(super) fn record_feed(&mut self) {
+        match self.state.feed {
+            Some(feed) => {
+                self.state.recorded_feed = Some(feed);
+                self.emit(RecordKind::Feed(feed));
+            }
+            None => self.lacks("FEDRAT"),
+        }
+    }
+
+    fn spindl(&mut self, s: &Statement) {
+        let words: Vec<&str> = s.words().collect();
+        if words.contains(&"OFF") || words.contains(&"STOP") {
+            self.leave_cycle();
+            self.state.spindle = Some(Spindle::Off);
+            self.state.spindle_recorded = true;
+            self.flush_tool_if_waiting();
+            return self.emit(RecordKind::Spindle(Spindle::Off));
+        }
+        let known = ["RPM", "CLW", "CCLW", "ON", "RANGE", "MAXRPM", "LOW", "MEDIUM", "HIGH", "SFM", "SMM", "REVPM"];
+        if let Some(unknown) = words.iter().find(|w| !known.contains(w)) {
+            let message = format!("SPINDL with {unknown} cannot be carried out");
+            return self.soften(&codes::NOT_CARRIED_OUT, message, None);
+        }
+        let value = first_number_not_after(s, &["RANGE", "MAXRPM"]);
+        let clockwise = !words.contains(&"CCLW");
+        let speed = match value {
+            Some(v) => self.speed(v, &words),
+            None => self.state.last_speed.map(|(rpm, _)| rpm),
+        };
+        let Some(rpm) = speed.filter(|r| *r > 0.0 && r.is_finite()) else {
+            return self.complain(&codes::BAD_RECORD, "SPINDL takes a speed greater than 0".to_owned());
+        };
+        let clockwise = if value.is_none() && !words.contains(&"CLW") && !words.contains(&"CCLW") {
+            self.state.last_speed.is_none_or(|(_, c)| c)
+        } else {
+            clockwise
+        };
+        self.state.last_speed = Some((rpm, clockwise));
+        self.state.spindle = Some(Spindle::On { rpm, clockwise });
+        self.state.spindle_recorded = false;
+    }
+
+    /// rev/min; a surface speed needs the cutter's diameter.
+    fn speed(&mut self, value: f64, words: &[&str]) -> Option<f64> {
+        let metres = if words.contains(&"SFM") {
+            value * 0.3048
+        } else if words.contains(&"SMM") {
+            value
+        } else {
+            return Some(value);
+        };
+        let diameter = self.current_diameter()?;
+        Some(metres * 1000.0 / (crate::math::PI * diameter))
+    }
+
+    pub(super) fn record_spindle(&mut self) {
+        match self.state.spindle {
+            Some(on @ Spindle::On { .. }) => {
+                self.state.spindle_recorded = true;
+                self.emit(RecordKind::Spindle(on));
+            }
+            _ => self.lacks("SPINDL"),
+        }
+    }
+
+    fn coolnt(&mut self, s: &Statement) {
+        let word = s.words().next().unwrap_or("ON");
+        let coolant = match word {
+            "OFF" => Coolant::Off,
+            "ON" | "FLOOD" => Coolant::Flood,
+            "MIST" => Coolant::Mist,
+            other => {
+                let message = format!("COOLNT with {other} cannot be carried out");
+                return self.soften(&codes::NOT_CARRIED_OUT, message, None);
+            }
+        };
+        self.flush_tool_if_waiting();
+        self.emit(RecordKind::Coolant(coolant));
+    }
+
+    /// Seconds, or revolutions with `REV`.
+    fn delay(&mut self, s: &Statement) {
+        let Some(value) = s.numbers().first().copied().filter(|v| *v >= 0.0 && *v < 1e6) else {
+            return self.complain(&codes::BAD_RECORD, format!("{} takes a time", s.major()));
+        };
+        let seconds = match (s.has("REV"), self.state.spindle) {
+            (false, _) => value,
+            (true, Some(Spindle::On { rpm, .. })) => value * 60.0 / rpm,
+            (true, _) => {
+                return self.complain(&codes::BAD_RECORD, "revolutions need a turning spindle".to_owned());
+            }
+        };
+        if seconds > 0.0 {
+            self.emit(RecordKind::Dwell(seconds));
+        }
+    }
+
+    fn unit(&mut self, s: &Statement) {
+        match s.words().next() {
+            Some(w) if w.starts_with("MM") || w.starts_with("MILLI") => self.set_units(LengthUnit::Millimetre),
+            Some(w) if w.starts_with("IN") => self.set_units(LengthUnit::Inch),
+            _ => self.complain(&codes::BAD_RECORD, "the unit is MM or INCH".to_owned()),
+        }
+    }
+
+    /// Points are the cutter's centre; a control's own compensation on top is not written.
+    fn cutcom(&mut self, s: &Statement) {
+        if s.has("LEFT") || s.has("RIGHT") || s.has("ON") {
+            let message = "the path is written as the points say, without the control's own compensation (G41, G42)";
+            self.complain(&codes::NO_COMPENSATION, message.to_owned());
+        }
+    }
+
+    fn tolerance(&mut self, word: &str, s: &Statement) {
+        let Some(value) = s.numbers().first().copied().filter(|v| *v >= 0.0 && v.is_finite()) else {
+            return self.complain(&codes::BAD_RECORD, format!("{word} takes a tolerance"));
+        };
+        let mm = value * self.state.scale;
+        let old = self.state.band;
+        match word {
+            "INTOL" => self.state.band.into = mm,
+            "OUTTOL" => self.state.band.out = mm,
+            _ => (self.state.band.into, self.state.band.out) = (0.0, mm),
+        }
+        if self.state.band.into + self.state.band.out <= 0.0 {
+            self.state.band = old;
+        }
+    }
+
+    fn flush_tool_if_waiting(&mut self) {
+        if self.state.load.is_some() {
+            self.flush_tool();
+        }
+    }
+
+    fn current_diameter(&self) -> Option<f64> {
+        let loaded = self.state.loaded.map(|t| self.tools[t].diameter);
+        self.state.tool.diameter().or(loaded).filter(|d| *d > 0.0)
+    }
+}
+
+/// The first number that does not belong to one of these words.
+fn first_number_not_after(s: &Statement, words: &[&str]) -> Option<f64> {
+    let mut skip = false;
+    for arg in &s.args {
+        match arg {
+            Arg::Number(v) if !skip => return Some(*v),
+            Arg::Word(w) => skip = words.contains(&w.as_str()),
+            _ => skip = false,
+        }
+    }
+    None
+}

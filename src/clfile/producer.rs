@@ -1,0 +1,124 @@
+//! Who wrote a CL file.
+
+/// Systems whose CL text is known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Producer {
+    /// Siemens NX, CLSF.
+    Nx,
+    /// CATIA V4 and V5, APTSOURCE.
+    Catia,
+    /// Creo, `.ncl`.
+    Creo,
+    /// SolidWorks CAM and CAMWorks, `.apt`.
+    SolidWorks,
+    /// NCL and PTED, APT source.
+    Ncl,
+    /// Mastercam, `.nci`.
+    Mastercam,
+    /// Plain APT CL text, also our own.
+    Plain,
+}
+
+/// Bytes at the start of a file that tell its producer.
+const LOOK: usize = 256 * 1024;
+
+/// What gives a producer away, at the start of a line; case-blind.
+const SIGNS: &[(&str, Producer)] = &[
+    ("TOOL PATH/", Producer::Nx),
+    ("TLDATA/", Producer::Nx),
+    ("END-OF-PATH", Producer::Nx),
+    ("$$*", Producer::Creo),
+    ("$$->", Producer::Creo),
+    ("TRNTYP/", Producer::SolidWorks),
+    ("CSI_SET", Producer::SolidWorks),
+    ("CYCLE/INIT", Producer::SolidWorks),
+    ("UNIT/", Producer::SolidWorks),
+    ("$$ OPERATION NAME", Producer::Catia),
+    ("AUTOPS", Producer::Catia),
+    ("INDIRV/", Producer::Catia),
+    ("TLON,GOFWD/", Producer::Catia),
+    ("TPRINT/", Producer::Catia),
+    ("HELICAL/", Producer::Catia),
+];
+
+impl Producer {
+    /// All of them.
+    pub const ALL: [Producer; 7] = [
+        Producer::Nx,
+        Producer::Catia,
+        Producer::Creo,
+        Producer::SolidWorks,
+        Producer::Ncl,
+        Producer::Mastercam,
+        Producer::Plain,
+    ];
+
+    /// The name on the command line.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Producer::Nx => "nx",
+            Producer::Catia => "catia",
+            Producer::Creo => "creo",
+            Producer::SolidWorks => "solidworks",
+            Producer::Ncl => "ncl",
+            Producer::Mastercam => "mastercam",
+            Producer::Plain => "plain",
+        }
+    }
+
+    /// Whether an arc may be followed by several points on it.
+    pub(super) fn many_points(self) -> bool {
+        matches!(self, Producer::Creo | Producer::Ncl)
+    }
+
+    /// Whether `INSERT` holds a text for people and not a block.
+    pub(super) fn inserts_are_comments(self) -> bool {
+        self == Producer::SolidWorks
+    }
+}
+
+/// By extension, then by the signs of the first lines; a program of the language has neither.
+pub(super) fn recognise(name: &str, text: &str) -> Option<Producer> {
+    let extension = name.rsplit_once('.').map(|(_, e)| e.to_ascii_lowercase()).unwrap_or_default();
+    let by_signs = || signs(text);
+    match extension.as_str() {
+        "cls" | "clsf" => Some(by_signs().unwrap_or(Producer::Nx)),
+        "nci" => Some(Producer::Mastercam),
+        "ncl" => Some(by_signs().unwrap_or(Producer::Creo)),
+        "as" => Some(by_signs().unwrap_or(Producer::Ncl)),
+        "aptsource" | "catnc" => Some(by_signs().unwrap_or(Producer::Catia)),
+        "cl" => Some(by_signs().or_else(|| prefixed(text)).unwrap_or(Producer::Plain)),
+        _ => by_signs().or_else(|| prefixed(text)),
+    }
+}
+
+fn head(text: &str) -> &str {
+    let mut end = text.len().min(LOOK);
+    while !text.is_char_boundary(end) {
+        end -= 1;
+    }
+    &text[..end]
+}
+
+fn signs(text: &str) -> Option<Producer> {
+    head(text).lines().map(str::trim_start).find_map(|line| {
+        SIGNS.iter().find(|(sign, _)| starts(line, sign)).map(|(_, producer)| *producer)
+    })
+}
+
+fn starts(line: &str, sign: &str) -> bool {
+    line.get(..sign.len()).is_some_and(|l| l.eq_ignore_ascii_case(sign))
+}
+
+/// Records with the number of the input line before them, `N12 , GOTO/ …`.
+fn prefixed(text: &str) -> Option<Producer> {
+    let prefixed = |line: &&str| {
+        let rest = line.trim_start().strip_prefix(['N', 'n']);
+        rest.is_some_and(|r| {
+            let after = r.trim_start_matches(|c: char| c.is_ascii_digit());
+            after.len() < r.len() && after.trim_start().starts_with(',')
+        })
+    };
+    head(text).lines().take(200).find(prefixed).map(|_| Producer::Ncl)
+}

@@ -1,0 +1,404 @@
+//! The reader: record by record, chunk by chunk.
+
+use std::collections::BTreeMap;
+
+use super::grammar::{self, Statement};
+use super::lines::{Lines, Piece, raw_word};
+use super::scan;
+use super::state::State;
+use super::words::{self, Class};
+use super::{Options, Producer, producer};
+use crate::arena::{Arena, Handle};
+use crate::cl::{Cl, Operation, Record, RecordKind};
+use crate::diag::codes::foreign as codes;
+use crate::diag::{Code, Diagnostic, Severity, Sink, did_you_mean};
+use crate::ir::{Origin, Tool};
+use crate::source::{FileId, Span};
+use crate::units::LengthUnit;
+
+/// Messages of one code at most; the rest are counted.
+const MOST_MESSAGES: u64 = 20;
+
+/// Reads a CL file.
+#[derive(Debug)]
+pub struct Reader<'t> {
+    pub(super) text: &'t str,
+    lines: Lines<'t>,
+    file: FileId,
+    pub(super) producer: Producer,
+    lenient: bool,
+    pub(super) state: State,
+    title: Option<String>,
+    units: LengthUnit,
+    pub(super) tools: Arena<Tool>,
+    pub(super) operations: Vec<Operation>,
+    origins: Arena<Origin>,
+    records: Vec<Record>,
+    /// The record in hand.
+    pub(super) span: Span,
+    /// Its origin, once a CL record came of it.
+    origin: Option<Handle<Origin>>,
+    /// Messages by code.
+    told: BTreeMap<&'static str, u64>,
+    pub(super) axis_trouble: Option<AxisTrouble>,
+    pub(super) missing: Vec<&'static str>,
+    sink: Sink,
+    over: bool,
+}
+
+/// Points whose tool axis is off Z.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct AxisTrouble {
+    pub first: Span,
+    pub axis: [f64; 3],
+    pub count: u64,
+    /// All of them have the same axis.
+    pub same: bool,
+}
+
+impl<'t> Reader<'t> {
+    /// A reader of `text`, which is file `file` called `name`.
+    #[must_use]
+    pub fn new(file: FileId, name: &str, text: &'t str, options: &Options) -> Reader<'t> {
+        let producer =
+            options.producer.or_else(|| producer::recognise(name, text)).unwrap_or(Producer::Plain);
+        let units = units(text, options);
+        let mut reader = Reader {
+            text,
+            lines: Lines::new(text),
+            file,
+            producer,
+            lenient: options.lenient,
+            state: State::new(units.in_mm()),
+            title: None,
+            units,
+            tools: Arena::default(),
+            operations: Vec::new(),
+            origins: Arena::default(),
+            records: Vec::new(),
+            span: Span::new(file, 0, 0),
+            origin: None,
+            told: BTreeMap::new(),
+            axis_trouble: None,
+            missing: Vec::new(),
+            sink: Sink::default(),
+            over: false,
+        };
+        reader.defines(&options.defines);
+        reader
+    }
+
+    /// Who wrote the file.
+    #[must_use]
+    pub fn producer(&self) -> Producer {
+        self.producer
+    }
+
+    /// Unit of the file.
+    #[must_use]
+    pub fn units(&self) -> LengthUnit {
+        self.units
+    }
+
+    /// CL data of about `records` further records; `None` when the file is over. Tools and operations are those of
+    /// the file so far.
+    pub fn chunk(&mut self, records: usize) -> Option<Cl> {
+        if self.over {
+            return None;
+        }
+        self.records.reserve(records.min(1 << 20));
+        while self.records.len() < records && !self.state.ended {
+            let Some((line, start)) = self.lines.line() else {
+                self.state.ended = true;
+                break;
+            };
+            self.line(line, start);
+        }
+        if self.state.ended {
+            self.finish();
+        }
+        self.over = self.state.ended;
+        Some(Cl {
+            title: self.title.clone(),
+            units: self.units,
+            tools: self.tools.clone(),
+            origins: core::mem::take(&mut self.origins),
+            operations: self.operations.clone(),
+            records: core::mem::take(&mut self.records),
+        })
+    }
+
+    /// The whole file at once.
+    pub fn whole(mut self) -> (Cl, Sink) {
+        let cl = self.chunk(usize::MAX).unwrap_or_default();
+        (cl, self.sink)
+    }
+
+    /// Messages so far.
+    pub fn messages(&mut self) -> Sink {
+        core::mem::take(&mut self.sink)
+    }
+
+    fn line(&mut self, line: &'t str, start: usize) {
+        self.origin = None;
+        if self.producer == Producer::Mastercam {
+            self.span = Span::new(self.file, start, start + line.len());
+            return self.pair_line(line, start);
+        }
+        if let Some(goto) = scan::goto(line.as_bytes()) {
+            self.span = Span::new(self.file, start, start + line.len());
+            return self.goto(&goto.values, goto.count);
+        }
+        let placed = self.lines.piece(line, start);
+        self.span = Span::new(self.file, placed.start, placed.end);
+        match &placed.piece {
+            Piece::Comment(text) => self.comment(text),
+            Piece::Metadata(text) => self.comment(text),
+            Piece::Line(text) => self.record_text(text),
+            Piece::Joined(text) => self.record_text(text),
+        }
+    }
+
+    /// Comments hold what CATIA and Creo say nowhere else.
+    fn comment(&mut self, text: &str) {
+        let body = text.trim_start_matches('$').trim();
+        if let Some(metadata) = text.strip_prefix("$$->") {
+            return self.metadata(metadata.trim());
+        }
+        let upper = body.to_uppercase();
+        if let Some(name) = upper.strip_prefix("OPERATION NAME") {
+            let name = name.trim_start_matches([' ', ':']).trim();
+            self.begin_named(name.to_owned());
+        }
+    }
+
+    fn record_text(&mut self, text: &str) {
+        let trimmed = text.trim();
+        if trimmed.is_empty() || trimmed == "%" {
+            return;
+        }
+        if let Some((word, rest)) = raw_word(trimmed) {
+            return self.raw(word, rest);
+        }
+        if self.state.continues && trimmed.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c)) {
+            let goto = format!("GOTO/{trimmed}");
+            if let Some(goto) = scan::goto(goto.as_bytes()) {
+                return self.goto(&goto.values, goto.count);
+            }
+        }
+        match grammar::parse(text) {
+            Ok(statement) => self.statement(&statement),
+            Err(at) => self.not_a_record(text, at.0),
+        }
+    }
+
+    fn not_a_record(&mut self, text: &str, at: usize) {
+        let rest: String = text.get(at..).unwrap_or("").trim().chars().take(20).collect();
+        let message = if rest.is_empty() {
+            "the record stops too early".to_owned()
+        } else {
+            format!("this is no CL record from `{rest}` on")
+        };
+        self.complain(&codes::BAD_RECORD, message);
+    }
+
+    /// Words whose text stands as it is.
+    fn raw(&mut self, word: &'static str, text: &str) {
+        self.state.continues = false;
+        match word {
+            "PARTNO" => {
+                if self.title.is_none() && !text.is_empty() {
+                    self.title = Some(text.to_owned());
+                }
+            }
+            "TOOL PATH" => self.tool_path(text),
+            "INSERT" if !self.producer.inserts_are_comments() => {
+                self.settle();
+                self.emit(RecordKind::Insert(text.to_owned()));
+            }
+            "PPRINT" | "TPRINT" | "INSERT" => {
+                self.settle();
+                if !text.is_empty() {
+                    self.emit(RecordKind::Comment(text.to_owned()));
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// A record by its major word.
+    pub(super) fn statement(&mut self, s: &Statement) {
+        if !matches!(s.major(), "KNOT" | "CNTRL") {
+            self.flush_nurbs();
+        }
+        // Points of an arc may have colours among them.
+        if !matches!(s.major(), "GOTO" | "PAINT") {
+            self.flush_circle();
+        }
+        self.state.continues = false;
+        match s.major() {
+            "GOTO" | "GODLTA" | "FROM" | "GOHOME" | "RAPID" | "MULTAX" | "TLAXIS" => self.motion(s),
+            "CIRCLE" => self.circle(s),
+            "CYCLE" => self.cycle(s),
+            "NURBS" | "KNOT" | "CNTRL" => self.nurbs(s),
+            "INDIRV" | "PSIS" | "TLON" | "TLLFT" | "TLRGT" | "HELICAL" => self.catia(s),
+            "CUTTER" | "TLDATA" | "LOADTL" | "LOAD" | "TOOLNO" | "END-OF-PATH" => self.tool(s),
+            "MSYS" | "CSYS" | "TRNTYP" => self.frame(s),
+            "END" | "FINI" => self.state.ended = true,
+            "FEDRAT" | "SPINDL" | "COOLNT" | "DELAY" | "DWELL" | "STOP" | "OPSTOP" | "UNITS" | "UNIT" | "INTOL"
+            | "OUTTOL" | "TOLER" | "CUTCOM" => self.process(s),
+            other => self.other(other, s),
+        }
+    }
+
+    fn other(&mut self, word: &str, s: &Statement) {
+        match words::class(word) {
+            Some(Class::Harmless) => {}
+            Some(Class::Matters(_)) if s.only_numbers() && zero(s) && matches!(word, "ORIGIN" | "TRANS") => {}
+            Some(Class::Matters(why)) => {
+                let message = format!("{word} cannot be carried out: {why}");
+                self.soften(&codes::NOT_CARRIED_OUT, message, None);
+            }
+            None => {
+                let near = did_you_mean(word, words::CARRIED_OUT.iter().copied());
+                let help = near.map(|n| format!("did you mean `{n}`?"));
+                self.soften(&codes::UNKNOWN_RECORD, format!("the record `{word}` is not known"), help);
+            }
+        }
+    }
+
+    fn finish(&mut self) {
+        self.flush_nurbs();
+        self.flush_circle();
+        self.leave_cycle();
+        self.end_operation();
+        if let Some(trouble) = self.axis_trouble.take() {
+            self.report_axis(&trouble);
+        }
+        let rest: Vec<String> = self
+            .told
+            .iter()
+            .filter(|(_, n)| **n > MOST_MESSAGES)
+            .map(|(code, n)| format!("{} more of {code}", n - MOST_MESSAGES))
+            .collect();
+        if !rest.is_empty() {
+            let message = format!("not all messages are shown: {}", rest.join(", "));
+            self.sink.push(Diagnostic::new(&codes::MORE, Span::new(self.file, 0, 0), message));
+        }
+    }
+
+    /// What was waiting for more records is done with.
+    pub(super) fn settle(&mut self) {
+        self.flush_nurbs();
+        self.flush_circle();
+    }
+
+    /// Adds a record; its origin is the record in hand.
+    pub(super) fn emit(&mut self, kind: RecordKind) {
+        let origin = match self.origin {
+            Some(origin) => origin,
+            None => {
+                let origin = self.origins.push(Origin { span: self.span, calls: Vec::new() });
+                self.origin = Some(origin);
+                origin
+            }
+        };
+        self.records.push(Record { kind, origin });
+    }
+
+    /// The origin of what comes next, without a record.
+    pub(super) fn here(&mut self) -> Handle<Origin> {
+        match self.origin {
+            Some(origin) => origin,
+            None => {
+                let origin = self.origins.push(Origin { span: self.span, calls: Vec::new() });
+                self.origin = Some(origin);
+                origin
+            }
+        }
+    }
+
+    /// The next record has an origin of its own.
+    pub(super) fn forget_origin(&mut self) {
+        self.origin = None;
+    }
+
+    /// `$$->` comments of Creo.
+    fn metadata(&mut self, text: &str) {
+        let Ok(s) = grammar::parse(text) else { return };
+        match s.major() {
+            "CUTTER" => self.cutter(&s.numbers()),
+            "CSYS" => self.frame_numbers("CSYS", &s.numbers()),
+            _ => {}
+        }
+    }
+
+    /// An error, or what the code is, at the record in hand.
+    pub(super) fn complain(&mut self, code: &'static Code, message: String) {
+        self.tell(Diagnostic::new(code, self.span, message));
+    }
+
+    /// An error that `--lenient` makes a warning of.
+    pub(super) fn soften(&mut self, code: &'static Code, message: String, help: Option<String>) {
+        let mut diagnostic = Diagnostic::new(code, self.span, message);
+        if let Some(help) = help {
+            diagnostic = diagnostic.help(help);
+        }
+        if self.lenient {
+            diagnostic.severity = Severity::Warning;
+        } else {
+            diagnostic = diagnostic.help("`--lenient` goes on without it, with a warning");
+        }
+        self.tell(diagnostic);
+    }
+
+    pub(super) fn lenient(&self) -> bool {
+        self.lenient
+    }
+
+    pub(super) fn tell(&mut self, diagnostic: Diagnostic) {
+        let count = self.told.entry(diagnostic.code.id).or_default();
+        *count += 1;
+        if *count <= MOST_MESSAGES {
+            self.sink.push(diagnostic);
+        }
+    }
+
+    pub(super) fn set_units(&mut self, unit: LengthUnit) {
+        if self.state.moved && unit != self.units {
+            return self.complain(&codes::BAD_RECORD, "the unit changes after the first point".to_owned());
+        }
+        self.units = unit;
+        self.state.scale = unit.in_mm();
+    }
+}
+
+fn zero(s: &Statement) -> bool {
+    s.numbers().iter().all(|v| *v == 0.0)
+}
+
+/// The unit: as given, else as the first record with a unit says, else mm.
+fn units(text: &str, options: &Options) -> LengthUnit {
+    let given = options.defines.iter().find(|(name, _)| name.eq_ignore_ascii_case("UNITS"));
+    if let Some((_, value)) = given {
+        return if value.to_uppercase().starts_with("IN") { LengthUnit::Inch } else { LengthUnit::Millimetre };
+    }
+    const LOOK: usize = 200_000;
+    for line in text.lines().take(LOOK) {
+        let word = line.trim_start();
+        let telling = ["UNIT", "FEDRAT", "CYCLE", "$$->"].iter().any(|w| {
+            word.get(..w.len()).is_some_and(|head| head.eq_ignore_ascii_case(w))
+        });
+        if !telling {
+            continue;
+        }
+        let upper = word.to_uppercase();
+        if ["MMPM", "MMPR", "/MM", "/ MM"].iter().any(|w| upper.contains(w)) {
+            return LengthUnit::Millimetre;
+        }
+        if ["IPM", "IPR", "/IN", "/ IN"].iter().any(|w| upper.contains(w)) {
+            return LengthUnit::Inch;
+        }
+    }
+    LengthUnit::Millimetre
+}

@@ -1,0 +1,89 @@
+//! What a CL file has put in force.
+
+use super::circle::Pending;
+use super::cycle::Asked;
+use super::nurbs::Spans;
+use super::tool::{Data, Load};
+use crate::geom::{Point3, Vec3};
+use crate::ir::{Band, Feed, Spindle};
+
+/// Tolerance of a file that states none, mm: of arcs and curves, on either side.
+const BAND: f64 = 0.01;
+
+/// State of the reader; lengths in mm.
+#[derive(Debug)]
+pub(super) struct State {
+    /// mm in the file's unit.
+    pub scale: f64,
+    pub at: Option<Point3>,
+    pub from: Option<Point3>,
+    /// Tool axis, unit vector.
+    pub axis: Vec3,
+    /// The next move is at rapid.
+    pub rapid: bool,
+    /// The record before was a `GOTO`, which coordinates alone on a line continue.
+    pub continues: bool,
+    pub feed: Option<Feed>,
+    pub recorded_feed: Option<Feed>,
+    pub spindle: Option<Spindle>,
+    /// The spindle command is in the CL data since the last tool change.
+    pub spindle_recorded: bool,
+    /// Speed for `SPINDL/ ON`.
+    pub last_speed: Option<(f64, bool)>,
+    pub band: Band,
+    pub tool: Data,
+    pub load: Option<Load>,
+    pub loaded: Option<crate::arena::Handle<crate::ir::Tool>>,
+    pub circle: Option<Pending>,
+    pub cycle: Option<Asked>,
+    pub nurbs: Option<Spans>,
+    pub frame: Option<[f64; 12]>,
+    pub moved: bool,
+    pub operation: Option<u32>,
+    /// Name of the next operation.
+    pub operation_name: Option<String>,
+    pub direction: Option<Vec3>,
+    pub part_normal: Option<Vec3>,
+    pub ended: bool,
+    /// First line of a Mastercam pair.
+    pub pair: Option<(i64, usize)>,
+}
+
+impl State {
+    pub fn new(scale: f64) -> State {
+        State {
+            scale,
+            at: None,
+            from: None,
+            axis: Vec3::z(),
+            rapid: false,
+            continues: false,
+            feed: None,
+            recorded_feed: None,
+            spindle: None,
+            spindle_recorded: false,
+            last_speed: None,
+            band: Band { into: BAND, out: BAND },
+            tool: Data::default(),
+            load: None,
+            loaded: None,
+            circle: None,
+            cycle: None,
+            nurbs: None,
+            frame: None,
+            moved: false,
+            operation: None,
+            operation_name: None,
+            direction: None,
+            part_normal: None,
+            ended: false,
+            pair: None,
+        }
+    }
+
+    /// How far an arc or a curve may be left, mm.
+    pub fn tolerance(&self) -> f64 {
+        let least = self.band.into.min(self.band.out);
+        if least > 0.0 { least } else { self.band.into.max(self.band.out) }
+    }
+}

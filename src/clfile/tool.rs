@@ -1,0 +1,203 @@
+//! Tools and operations.
+
+use super::grammar::Statement;
+use super::reader::Reader;
+use crate::cl::{Guard, Operation, RecordKind};
+use crate::diag::codes::foreign as codes;
+use crate::ir::{CutterKind, Tool};
+use crate::source::Span;
+
+/// What is known of the next tool.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Data {
+    name: Option<String>,
+    /// d, r, e, f, α, β, h as written: lengths in mm, angles in radians.
+    cutter: [f64; 7],
+    stated: bool,
+}
+
+/// A tool change that waits for what the file says of the tool.
+#[derive(Debug, Clone)]
+pub(super) struct Load {
+    number: Option<u32>,
+    span: Span,
+}
+
+impl Data {
+    /// Diameter in mm, if the file gave one.
+    pub fn diameter(&self) -> Option<f64> {
+        self.stated.then_some(self.cutter[0])
+    }
+}
+
+impl Reader<'_> {
+    pub(super) fn tool(&mut self, s: &Statement) {
+        match s.major() {
+            "CUTTER" => self.cutter(&s.numbers()),
+            "TLDATA" => self.nx_data(s),
+            "TOOLNO" | "LOADTL" => self.load_words(s),
+            "LOAD" if s.has("TOOL") => self.load_words(s),
+            "LOAD" => {}
+            _ => {
+                self.leave_cycle();
+                self.end_operation();
+            }
+        }
+    }
+
+    pub(super) fn cutter(&mut self, numbers: &[f64]) {
+        const LENGTHS: [bool; 7] = [true, true, true, true, false, false, true];
+        let Some(d) = numbers.first().filter(|d| **d >= 0.0 && d.is_finite()) else {
+            return self.complain(&codes::BAD_RECORD, "CUTTER starts with the diameter".to_owned());
+        };
+        let mut cutter = [0.0; 7];
+        for ((slot, value), length) in cutter.iter_mut().zip(numbers).zip(LENGTHS) {
+            *slot = if length { value * self.state.scale } else { value.to_radians() };
+        }
+        if numbers.len() < 3 {
+            cutter[2] = d * self.state.scale / 2.0 - cutter[1];
+            cutter[3] = cutter[1];
+        }
+        self.state.tool.cutter = cutter;
+        self.state.tool.stated = true;
+    }
+
+    /// `TLDATA/ MILL, d, r, length, taper, tip` or `DRILL, MILL, d, …`.
+    fn nx_data(&mut self, s: &Statement) {
+        let numbers = s.numbers();
+        let [d, r, ..] = *numbers else { return };
+        let corner = if s.has("DRILL") { 0.0 } else { r };
+        self.cutter(&[d, corner]);
+    }
+
+    /// `TOOL PATH/ operation, TOOL, tool`.
+    pub(super) fn tool_path(&mut self, text: &str) {
+        let (operation, tool) = match text.find(",TOOL,") {
+            Some(at) => (text.get(..at).unwrap_or(text), text.get(at + 6..)),
+            None => (text, None),
+        };
+        self.begin_named(operation.trim().to_owned());
+        let Some(tool) = tool.map(str::trim).filter(|t| !t.is_empty()) else { return };
+        let same = self.state.tool.name.as_deref() == Some(tool);
+        if !same {
+            self.state.tool = Data { name: Some(tool.to_owned()), ..Data::default() };
+            self.state.load = Some(Load { number: None, span: self.span });
+        }
+    }
+
+    /// `LOADTL/ n`, `LOAD/ TOOL, n`, `TOOLNO/ n`.
+    fn load_words(&mut self, s: &Statement) {
+        let number = s.numbers().first().copied();
+        let number = number.filter(|n| *n >= 0.0 && n.fract() == 0.0 && *n <= 99_999_999.0).map(|n| n as u32);
+        if number.is_none() && !s.args.is_empty() && !s.words().any(|w| w != "TOOL") {
+            return self.complain(&codes::BAD_RECORD, "the tool number is no whole number".to_owned());
+        }
+        if s.major() == "TOOLNO" {
+            // It describes the tool that LOADTL changes in; some systems write nothing else.
+            if self.state.load.is_none() {
+                self.load(number);
+            }
+            return;
+        }
+        self.load(number);
+    }
+
+    pub(super) fn load(&mut self, number: Option<u32>) {
+        let current = self.state.loaded.map(|t| &self.tools[t]);
+        let same = number.is_some() && current.is_some_and(|t| t.number == number);
+        if same && self.state.load.is_none() {
+            return;
+        }
+        if self.state.loaded.is_some() && self.state.load.is_none() {
+            // A tool of its own, unless the file says more of it.
+            self.state.tool.stated = false;
+        }
+        self.leave_cycle();
+        self.state.load = Some(Load { number, span: self.span });
+    }
+
+    pub(super) fn tool_data(&mut self, name: String, diameter: f64, corner: f64) {
+        self.state.tool = Data { name: Some(name), ..Data::default() };
+        self.cutter(&[diameter, corner]);
+    }
+
+    /// The tool change that waits is due.
+    pub(super) fn flush_tool(&mut self) {
+        let Some(load) = self.state.load.take() else {
+            if self.state.loaded.is_none() {
+                self.lacks("LOADTL");
+            }
+            return;
+        };
+        let span = core::mem::replace(&mut self.span, load.span);
+        let data = self.state.tool.clone();
+        let [d, r, e, f, a, b, h] = data.cutter;
+        let kind = match (r, d) {
+            (r, _) if r <= 0.0 && b <= 0.0 => CutterKind::Flat,
+            (_, _) if b > 0.0 => CutterKind::Taper,
+            (r, d) if r >= d / 2.0 => CutterKind::Ball,
+            _ => CutterKind::Bull,
+        };
+        let name = match (data.name, load.number) {
+            (Some(name), _) => name,
+            (None, Some(n)) => format!("T{n}"),
+            (None, None) => "TOOL".to_owned(),
+        };
+        let origin = self.here();
+        let known = self.tools.iter().find(|(_, t)| t.number == load.number && t.name == name && t.diameter == d);
+        let tool = match known.map(|(handle, _)| handle) {
+            Some(tool) => tool,
+            None => self.tools.push(Tool {
+                name,
+                kind,
+                diameter: d,
+                corner: r,
+                profile: [e, f, a, b, h],
+                number: load.number,
+                flutes: None,
+                helix: None,
+                length: None,
+                stick_out: None,
+                material: None,
+                origin,
+            }),
+        };
+        if self.state.loaded != Some(tool) {
+            self.emit(RecordKind::LoadTool(tool));
+            self.state.loaded = Some(tool);
+            self.state.spindle_recorded = false;
+            self.state.recorded_feed = None;
+            self.state.at = None;
+        }
+        self.span = span;
+        self.forget_origin();
+    }
+
+    /// An operation with a name of its own comes next.
+    pub(super) fn begin_named(&mut self, name: String) {
+        self.leave_cycle();
+        self.end_operation();
+        self.state.operation_name = Some(name);
+    }
+
+    /// The operation of the moves that follow.
+    pub(super) fn begin_operation(&mut self) {
+        if self.state.operation.is_some() {
+            return;
+        }
+        let index = u32::try_from(self.operations.len()).unwrap_or(u32::MAX);
+        let name = self.state.operation_name.take().unwrap_or_else(|| format!("CL {}", index + 1));
+        let origin = self.here();
+        // Walls and blank are not known: nothing is guarded.
+        let guard = Guard { top: f64::NEG_INFINITY, bottom: f64::NEG_INFINITY, ..Guard::default() };
+        self.operations.push(Operation { name, kind: "CL", origin, band: self.state.band, guard, effort: None });
+        self.state.operation = Some(index);
+        self.emit(RecordKind::BeginOperation(index));
+    }
+
+    pub(super) fn end_operation(&mut self) {
+        if let Some(index) = self.state.operation.take() {
+            self.emit(RecordKind::EndOperation(index));
+        }
+    }
+}
