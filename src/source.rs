@@ -123,6 +123,15 @@ pub trait FileProvider: Sync {
     /// # Errors
     /// [`FileError`], in particular when the file lies above the project's root.
     fn read(&self, from: Option<&str>, path: &str) -> Result<(String, String), FileError>;
+
+    /// Reads a CL file: bytes that are not UTF-8, which comments of CAM systems have, become replacement characters,
+    /// and it may be larger than a program.
+    ///
+    /// # Errors
+    /// As [`FileProvider::read`].
+    fn read_cl(&self, path: &str) -> Result<(String, String), FileError> {
+        self.read(None, path)
+    }
 }
 
 /// Files held in memory: for tests, fuzzing and the playground.

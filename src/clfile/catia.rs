@@ -47,7 +47,9 @@ impl Reader<'_> {
         let (centre, axis, radius) = match (s.major(), numbers.as_slice()) {
             ("CIRCLE", [x, y, z, r]) => ([*x, *y, *z], normal, *r),
             ("CIRCLE" | "CYLNDR", [x, y, z, i, j, k, r]) => ([*x, *y, *z], Vec3::new(*i, *j, *k), *r),
-            (word, _) => return Err(format!("the tool cannot follow a {word} with {} numbers", numbers.len())),
+            (word, _) => {
+                return Err(format!("the tool cannot follow a {word} with {} numbers", numbers.len()));
+            }
         };
         let scale = self.state.scale;
         let centre = Point3::from(centre.map(|v| v * scale));
@@ -110,7 +112,9 @@ impl Reader<'_> {
             let message = "a helix needs a point before it and an end";
             return self.complain(&codes::BAD_RECORD, message.to_owned());
         };
-        let (Some(centre), Some(end)) = (self.point([*cx, *cy, *cz]), self.point([*x, *y, *z])) else { return };
+        let (Some(centre), Some(end)) = (self.point([*cx, *cy, *cz]), self.point([*x, *y, *z])) else {
+            return;
+        };
         let (Some(axis), tangent) = (vector(&[*ax, *ay, *az]), Vec3::new(*tx, *ty, *tz)) else {
             return self.complain(&codes::BAD_RECORD, "the helix's axis has no length".to_owned());
         };

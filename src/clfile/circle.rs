@@ -172,6 +172,7 @@ impl Reader<'_> {
     fn emit_arc(&mut self, pending: &Pending, to: Point3) {
         self.state.rapid = false;
         self.pause_cycle();
+        self.make_sure();
         self.state.moved = true;
         if self.ready() {
             let Pending { centre, axis, turns, .. } = *pending;

@@ -86,10 +86,18 @@ impl Reader<'_> {
         }
     }
 
-    fn kind(&self, word: &str, s: &Statement, dwell: Option<f64>, feed: Option<Feed>) -> Result<CycleKind, String> {
+    fn kind(
+        &self,
+        word: &str,
+        s: &Statement,
+        dwell: Option<f64>,
+        feed: Option<Feed>,
+    ) -> Result<CycleKind, String> {
         Ok(match word {
             "DRILL" | "THRU" | "CSINK" if dwell.is_none() => CycleKind::Drill,
-            "DRILL" | "THRU" | "CSINK" | "FACE" | "SPOTFC" | "SPTFAC" | "CBORE" | "COUNTR" => CycleKind::Dwell,
+            "DRILL" | "THRU" | "CSINK" | "FACE" | "SPOTFC" | "SPTFAC" | "CBORE" | "COUNTR" => {
+                CycleKind::Dwell
+            }
             "DEEP" | "DEEP2" | "PECK" => CycleKind::Deep,
             "BRKCHP" | "BRKCHIP" | "BREAK" | "CHPBRK" | "CHIP" => CycleKind::ChipBreak,
             "TAP" => CycleKind::Tap { pitch: self.pitch(s, feed)?, left: s.has("LEFT") || s.has("CCLW") },
@@ -115,7 +123,9 @@ impl Reader<'_> {
         match (feed.or(self.state.feed), speed) {
             (Some(Feed::PerRevolution(pitch)), _) => Ok(pitch),
             (Some(Feed::PerMinute(feed)), Some(rpm)) => Ok(feed / rpm),
-            _ => Err("tapping has no pitch: a feed per revolution, or a feed and a turning spindle".to_owned()),
+            _ => {
+                Err("tapping has no pitch: a feed per revolution, or a feed and a turning spindle".to_owned())
+            }
         }
     }
 
@@ -146,9 +156,8 @@ impl Reader<'_> {
             self.open_cycle(asked, point);
         }
         self.emit(RecordKind::Hole(point));
-        let level = self.state.cycle.as_ref().map_or(point.z, |a| {
-            point.z + a.return_to.unwrap_or(a.cycle.clearance)
-        });
+        let level =
+            self.state.cycle.as_ref().map_or(point.z, |a| point.z + a.return_to.unwrap_or(a.cycle.clearance));
         self.state.at = Some(Point3::new(point.x, point.y, level));
     }
 
@@ -157,10 +166,14 @@ impl Reader<'_> {
         self.close_cycle();
         self.ready_to_drill(&mut asked);
         let level = point.z + asked.return_to.unwrap_or(asked.cycle.clearance);
+        self.make_sure();
         match self.state.at {
             Some(at) if at.z < level => self.emit(RecordKind::Rapid(Point3::new(at.x, at.y, level))),
             Some(_) => {}
-            None => self.emit(RecordKind::Rapid(Point3::new(point.x, point.y, level))),
+            None => {
+                self.emit(RecordKind::Rapid(Point3::new(point.x, point.y, level)));
+                self.state.sure = true;
+            }
         }
         self.emit(RecordKind::BeginCycle(Box::new(asked.cycle)));
         asked.open = Some(point.z);

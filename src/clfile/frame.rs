@@ -13,6 +13,8 @@ const SAME: f64 = 1e-6;
 impl Reader<'_> {
     pub(super) fn frame(&mut self, s: &Statement) {
         if s.major() == "TRNTYP" {
+            // Points are in the part's own system, whatever systems the operations have.
+            self.state.world |= s.has("WORLD");
             if s.numbers().iter().any(|v| *v != 0.0) {
                 let message = "TRNTYP cannot be carried out: it shifts the coordinates";
                 self.soften(&codes::NOT_CARRIED_OUT, message.to_owned(), None);
@@ -31,8 +33,10 @@ impl Reader<'_> {
         for (slot, value) in frame.iter_mut().zip(numbers) {
             *slot = *value;
         }
-        let differs = self.state.frame.is_some_and(|old| old.iter().zip(&frame).any(|(a, b)| (a - b).abs() > SAME));
-        if differs && self.state.moved {
+        let differs =
+            self.state.frame.is_some_and(|old| old.iter().zip(&frame).any(|(a, b)| (a - b).abs() > SAME));
+        if differs && self.state.moved && !self.state.world && !self.state.frame_told {
+            self.state.frame_told = true;
             let message = format!("{word} changes the coordinate system after the first point");
             let help = "write a file for each coordinate system".to_owned();
             self.soften(&codes::NOT_CARRIED_OUT, message, Some(help));

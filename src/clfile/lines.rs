@@ -105,8 +105,19 @@ fn cut(line: &str) -> (&str, bool) {
 }
 
 /// Words that take the rest of the line as text.
-const RAW: [&str; 11] =
-    ["PARTNO", "PPRINT", "TPRINT", "INSERT", "REMARK", "TITLES", "LETTER", "TOOL PATH", "DISPLY", "LEADER", "TITLE"];
+const RAW: [&str; 11] = [
+    "PARTNO",
+    "PPRINT",
+    "TPRINT",
+    "INSERT",
+    "REMARK",
+    "TITLES",
+    "LETTER",
+    "TOOL PATH",
+    "DISPLY",
+    "LEADER",
+    "TITLE",
+];
 
 /// Whether a record is raw text after its word.
 #[must_use]

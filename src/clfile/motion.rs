@@ -114,6 +114,14 @@ impl Reader<'_> {
         self.state.rapid = false;
         self.emit(RecordKind::Rapid(to));
         self.state.at = Some(to);
+        self.state.sure = true;
+    }
+
+    /// Where a cut starts the control must have been told; after `FROM` it has not.
+    pub(super) fn make_sure(&mut self) {
+        if let (false, Some(at)) = (self.state.sure, self.state.at) {
+            self.rapid_to(at);
+        }
     }
 
     /// At feed.
@@ -123,6 +131,7 @@ impl Reader<'_> {
             // Nobody knows where the tool is: not at feed.
             return self.rapid_to(to);
         }
+        self.make_sure();
         if self.ready() {
             self.emit(RecordKind::Linear(to));
         }
@@ -205,10 +214,6 @@ impl Reader<'_> {
                 self.set_feed_number(feed);
                 self.goto(&[x, y, z, 0.0, 0.0, 0.0], 3);
             }
-            [x, y] if self.state.at.is_some() => {
-                let z = self.state.at.map_or(0.0, |p| p.z) / self.state.scale;
-                self.goto(&[x, y, z, 0.0, 0.0, 0.0], 3);
-            }
             _ => {
                 let message = format!("a point has 3 numbers, or 6 with a tool axis, not {}", numbers.len());
                 self.complain(&codes::BAD_RECORD, message);
@@ -245,6 +250,7 @@ impl Reader<'_> {
         self.begin_operation();
         self.flush_tool();
         self.emit(RecordKind::From(p));
+        self.state.sure = false;
         self.state.from = Some(p);
         self.state.at = Some(p);
         self.state.moved = true;

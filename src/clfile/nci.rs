@@ -12,8 +12,8 @@ use crate::ir::{Coolant, Spindle};
 
 /// Codes that do nothing a program must say.
 const HARMLESS: &[i64] = &[
-    1000, 1001, 1004, 1009, 1010, 1011, 1012, 1013, 1014, 1016, 1017, 1018, 1019, 1020, 1025, 1026, 1027, 1050, 20000, 20001,
-    20002, 20003, 20004, 20005, 20006, 20007, 20008, 20009, 20010, 20100, 2,
+    1000, 1001, 1004, 1009, 1010, 1011, 1012, 1013, 1014, 1016, 1017, 1018, 1019, 1020, 1025, 1026, 1027,
+    1050, 20000, 20001, 20002, 20003, 20004, 20005, 20006, 20007, 20008, 20009, 20010, 20100, 2,
 ];
 
 impl<'t> Reader<'t> {
@@ -51,7 +51,9 @@ impl<'t> Reader<'t> {
             1003 => self.state.ended = true,
             80 => {}
             81 | 82 | 83 | 84 | 85 | 86 | 87 | 88 | 89 | 100 | 101 => {
-                let message = format!("the drilling record {code} of NCI is not read: the order of its numbers is not known");
+                let message = format!(
+                    "the drilling record {code} of NCI is not read: the order of its numbers is not known"
+                );
                 self.soften(&codes::NOT_CARRIED_OUT, message, Some("write drilling as moves".to_owned()));
             }
             _ if HARMLESS.contains(&code) => {}
@@ -110,7 +112,9 @@ impl<'t> Reader<'t> {
 
     /// Program, block numbers, tool, offsets, plane, speed (negative: counter-clockwise), feed, coolant.
     fn nci_tool(&mut self, n: &[f64]) {
-        let [_, _, _, tool, _, _, _, speed, feed, coolant, ..] = *n else { return self.nci_short(1002, 10, n.len()) };
+        let [_, _, _, tool, _, _, _, speed, feed, coolant, ..] = *n else {
+            return self.nci_short(1002, 10, n.len());
+        };
         self.leave_cycle();
         self.end_operation();
         let number = (tool >= 0.0 && tool.fract() == 0.0 && tool < 1e8).then_some(tool as u32);
@@ -129,6 +133,9 @@ impl<'t> Reader<'t> {
     }
 
     fn nci_short(&mut self, code: i64, wanted: usize, found: usize) {
-        self.complain(&codes::BAD_RECORD, format!("the record {code} takes {wanted} numbers or more, not {found}"));
+        self.complain(
+            &codes::BAD_RECORD,
+            format!("the record {code} takes {wanted} numbers or more, not {found}"),
+        );
     }
 }

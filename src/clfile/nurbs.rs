@@ -6,6 +6,7 @@
 
 use super::grammar::Statement;
 use super::reader::Reader;
+use crate::diag::Diagnostic;
 use crate::diag::codes::foreign as codes;
 use crate::geom::Point3;
 
@@ -47,6 +48,14 @@ impl Reader<'_> {
         }
     }
 
+    /// Says once what became of all curves.
+    pub(super) fn report_curves(&mut self) {
+        let Some((span, curves, lines)) = self.state.flattened.take() else { return };
+        let tolerance = self.show(self.state.tolerance());
+        let message = format!("{curves} curves (NURBS) are cut by {lines} lines, at most {tolerance} off");
+        self.tell(Diagnostic::new(&codes::CURVE_AS_LINES, span, message));
+    }
+
     fn control_points(&mut self, numbers: &[f64]) -> Vec<Point3> {
         let [x, y, z, ..] = *numbers else {
             self.complain(&codes::BAD_RECORD, "CNTRL takes 3 numbers".to_owned());
@@ -59,7 +68,8 @@ impl Reader<'_> {
     pub(super) fn flush_nurbs(&mut self) {
         let Some(spans) = self.state.nurbs.take() else { return };
         let Some(start) = self.state.at else {
-            return self.complain(&codes::BAD_CURVE, "a curve from nowhere: no point stands before it".to_owned());
+            return self
+                .complain(&codes::BAD_CURVE, "a curve from nowhere: no point stands before it".to_owned());
         };
         let (knots, points) = (spans.knots.len(), spans.points.len());
         let rising = spans.knots.windows(2).all(|w| w[0] <= w[1]);
@@ -81,12 +91,14 @@ impl Reader<'_> {
         for span in 3..control.len() {
             let (a, b) = (full[span], full[span + 1]);
             if b > a {
-                let bezier = [[a, a, a], [a, a, b], [a, b, b], [b, b, b]].map(|at| blossom(&control, &full, span, at));
+                let bezier =
+                    [[a, a, a], [a, a, b], [a, b, b], [b, b, b]].map(|at| blossom(&control, &full, span, at));
                 flatten(bezier, tolerance, 0, &mut ends);
             }
         }
-        let message = format!("the curve is cut by {} lines, at most {} off", ends.len(), self.show(tolerance));
-        self.complain(&codes::CURVE_AS_LINES, message);
+        let flattened = self.state.flattened.get_or_insert((self.span, 0, 0));
+        flattened.1 += 1;
+        flattened.2 += ends.len();
         for end in ends {
             self.move_to(end);
         }

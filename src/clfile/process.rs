@@ -53,7 +53,8 @@ impl Reader<'_> {
     /// Value and unit in either order.
     pub(super) fn feed_of(&mut self, value: f64, words: &[&str]) -> Option<Feed> {
         let scale = |unit: f64| if unit > 0.0 { unit } else { self.state.scale };
-        let find = |table: &[(&str, f64)]| table.iter().find(|(w, _)| words.contains(w)).map(|(_, u)| scale(*u));
+        let find =
+            |table: &[(&str, f64)]| table.iter().find(|(w, _)| words.contains(w)).map(|(_, u)| scale(*u));
         if !(value > 0.0) {
             return None;
         }
@@ -69,7 +70,9 @@ impl Reader<'_> {
             self.state.rapid = true;
             return;
         }
-        let known = |w: &&str| PER_MINUTE.iter().chain(PER_REVOLUTION).any(|(k, _)| k == w) || *w == "NOW" || *w == "NEXT";
+        let known = |w: &&str| {
+            PER_MINUTE.iter().chain(PER_REVOLUTION).any(|(k, _)| k == w) || *w == "NOW" || *w == "NEXT"
+        };
         if let Some(unknown) = words.iter().find(|w| !known(w)) {
             let message = format!("FEDRAT with {unknown} cannot be carried out");
             return self.soften(&codes::NOT_CARRIED_OUT, message, None);
@@ -107,7 +110,8 @@ impl Reader<'_> {
             self.flush_tool_if_waiting();
             return self.emit(RecordKind::Spindle(Spindle::Off));
         }
-        let known = ["RPM", "CLW", "CCLW", "ON", "RANGE", "MAXRPM", "LOW", "MEDIUM", "HIGH", "SFM", "SMM", "REVPM"];
+        let known =
+            ["RPM", "CLW", "CCLW", "ON", "RANGE", "MAXRPM", "LOW", "MEDIUM", "HIGH", "SFM", "SMM", "REVPM"];
         if let Some(unknown) = words.iter().find(|w| !known.contains(w)) {
             let message = format!("SPINDL with {unknown} cannot be carried out");
             return self.soften(&codes::NOT_CARRIED_OUT, message, None);
@@ -188,7 +192,9 @@ impl Reader<'_> {
 
     fn unit(&mut self, s: &Statement) {
         match s.words().next() {
-            Some(w) if w.starts_with("MM") || w.starts_with("MILLI") => self.set_units(LengthUnit::Millimetre),
+            Some(w) if w.starts_with("MM") || w.starts_with("MILLI") => {
+                self.set_units(LengthUnit::Millimetre)
+            }
             Some(w) if w.starts_with("IN") => self.set_units(LengthUnit::Inch),
             _ => self.complain(&codes::BAD_RECORD, "the unit is MM or INCH".to_owned()),
         }
@@ -196,8 +202,11 @@ impl Reader<'_> {
 
     /// Points are the cutter's centre; a control's own compensation on top is not written.
     fn cutcom(&mut self, s: &Statement) {
-        if s.has("LEFT") || s.has("RIGHT") || s.has("ON") {
-            let message = "the path is written as the points say, without the control's own compensation (G41, G42)";
+        let on = s.has("LEFT") || s.has("RIGHT") || s.has("ON");
+        if on && !self.state.compensation_told {
+            self.state.compensation_told = true;
+            let message =
+                "the path is written as the points say, without the control's own compensation (G41, G42)";
             self.complain(&codes::NO_COMPENSATION, message.to_owned());
         }
     }

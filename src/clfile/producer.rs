@@ -102,9 +102,10 @@ fn head(text: &str) -> &str {
 }
 
 fn signs(text: &str) -> Option<Producer> {
-    head(text).lines().map(str::trim_start).find_map(|line| {
-        SIGNS.iter().find(|(sign, _)| starts(line, sign)).map(|(_, producer)| *producer)
-    })
+    head(text)
+        .lines()
+        .map(str::trim_start)
+        .find_map(|line| SIGNS.iter().find(|(sign, _)| starts(line, sign)).map(|(_, producer)| *producer))
 }
 
 fn starts(line: &str, sign: &str) -> bool {

@@ -22,7 +22,6 @@ const MOST_MESSAGES: u64 = 20;
 /// Reads a CL file.
 #[derive(Debug)]
 pub struct Reader<'t> {
-    pub(super) text: &'t str,
     lines: Lines<'t>,
     file: FileId,
     pub(super) producer: Producer,
@@ -64,7 +63,6 @@ impl<'t> Reader<'t> {
             options.producer.or_else(|| producer::recognise(name, text)).unwrap_or(Producer::Plain);
         let units = units(text, options);
         let mut reader = Reader {
-            text,
             lines: Lines::new(text),
             file,
             producer,
@@ -245,8 +243,8 @@ impl<'t> Reader<'t> {
             "CUTTER" | "TLDATA" | "LOADTL" | "LOAD" | "TOOLNO" | "END-OF-PATH" => self.tool(s),
             "MSYS" | "CSYS" | "TRNTYP" => self.frame(s),
             "END" | "FINI" => self.state.ended = true,
-            "FEDRAT" | "SPINDL" | "COOLNT" | "DELAY" | "DWELL" | "STOP" | "OPSTOP" | "UNITS" | "UNIT" | "INTOL"
-            | "OUTTOL" | "TOLER" | "CUTCOM" => self.process(s),
+            "FEDRAT" | "SPINDL" | "COOLNT" | "DELAY" | "DWELL" | "STOP" | "OPSTOP" | "UNITS" | "UNIT"
+            | "INTOL" | "OUTTOL" | "TOLER" | "CUTCOM" => self.process(s),
             other => self.other(other, s),
         }
     }
@@ -272,6 +270,7 @@ impl<'t> Reader<'t> {
         self.flush_circle();
         self.leave_cycle();
         self.end_operation();
+        self.report_curves();
         if let Some(trouble) = self.axis_trouble.take() {
             self.report_axis(&trouble);
         }
@@ -381,14 +380,18 @@ fn zero(s: &Statement) -> bool {
 fn units(text: &str, options: &Options) -> LengthUnit {
     let given = options.defines.iter().find(|(name, _)| name.eq_ignore_ascii_case("UNITS"));
     if let Some((_, value)) = given {
-        return if value.to_uppercase().starts_with("IN") { LengthUnit::Inch } else { LengthUnit::Millimetre };
+        return if value.to_uppercase().starts_with("IN") {
+            LengthUnit::Inch
+        } else {
+            LengthUnit::Millimetre
+        };
     }
     const LOOK: usize = 200_000;
     for line in text.lines().take(LOOK) {
         let word = line.trim_start();
-        let telling = ["UNIT", "FEDRAT", "CYCLE", "$$->"].iter().any(|w| {
-            word.get(..w.len()).is_some_and(|head| head.eq_ignore_ascii_case(w))
-        });
+        let telling = ["UNIT", "FEDRAT", "CYCLE", "$$->"]
+            .iter()
+            .any(|w| word.get(..w.len()).is_some_and(|head| head.eq_ignore_ascii_case(w)));
         if !telling {
             continue;
         }

@@ -37,7 +37,15 @@ pub(super) struct State {
     pub circle: Option<Pending>,
     pub cycle: Option<Asked>,
     pub nurbs: Option<Spans>,
+    /// Curves that became lines: the first, how many, how many lines.
+    pub flattened: Option<(crate::source::Span, usize, usize)>,
     pub frame: Option<[f64; 12]>,
+    /// Points are in the part's system, not in the operation's.
+    pub world: bool,
+    pub frame_told: bool,
+    pub compensation_told: bool,
+    /// The control has been told where the tool is.
+    pub sure: bool,
     pub moved: bool,
     pub operation: Option<u32>,
     /// Name of the next operation.
@@ -70,7 +78,12 @@ impl State {
             circle: None,
             cycle: None,
             nurbs: None,
+            flattened: None,
             frame: None,
+            world: false,
+            frame_told: false,
+            compensation_told: false,
+            sure: false,
             moved: false,
             operation: None,
             operation_name: None,

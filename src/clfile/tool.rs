@@ -116,11 +116,6 @@ impl Reader<'_> {
         self.state.load = Some(Load { number, span: self.span });
     }
 
-    pub(super) fn tool_data(&mut self, name: String, diameter: f64, corner: f64) {
-        self.state.tool = Data { name: Some(name), ..Data::default() };
-        self.cutter(&[diameter, corner]);
-    }
-
     /// The tool change that waits is due.
     pub(super) fn flush_tool(&mut self) {
         let Some(load) = self.state.load.take() else {
@@ -144,7 +139,8 @@ impl Reader<'_> {
             (None, None) => "TOOL".to_owned(),
         };
         let origin = self.here();
-        let known = self.tools.iter().find(|(_, t)| t.number == load.number && t.name == name && t.diameter == d);
+        let known =
+            self.tools.iter().find(|(_, t)| t.number == load.number && t.name == name && t.diameter == d);
         let tool = match known.map(|(handle, _)| handle) {
             Some(tool) => tool,
             None => self.tools.push(Tool {
@@ -168,6 +164,7 @@ impl Reader<'_> {
             self.state.spindle_recorded = false;
             self.state.recorded_feed = None;
             self.state.at = None;
+            self.state.sure = false;
         }
         self.span = span;
         self.forget_origin();
@@ -190,7 +187,14 @@ impl Reader<'_> {
         let origin = self.here();
         // Walls and blank are not known: nothing is guarded.
         let guard = Guard { top: f64::NEG_INFINITY, bottom: f64::NEG_INFINITY, ..Guard::default() };
-        self.operations.push(Operation { name, kind: "CL", origin, band: self.state.band, guard, effort: None });
+        self.operations.push(Operation {
+            name,
+            kind: "CL",
+            origin,
+            band: self.state.band,
+            guard,
+            effort: None,
+        });
         self.state.operation = Some(index);
         self.emit(RecordKind::BeginOperation(index));
     }

@@ -48,6 +48,9 @@ pub enum Verb {
     Check(CheckArgs),
     /// Print the page of a diagnostic code, or list all codes.
     Explain(ExplainArgs),
+    /// Post CL files of a CAM system: as build, and every file is taken for a CL file.
+    #[command(after_help = CL_EXAMPLES)]
+    Cl(BuildArgs),
     /// Draw a cam, the cutter's path, or its deviation from the exact curves.
     #[command(after_help = PLOT_EXAMPLES)]
     Plot(PlotArgs),
@@ -67,6 +70,14 @@ Examples:
   partwright build plate.apt --post grbl -o - | grep G1
   partwright build plate.apt --emit cl              prints the cutter location data
   partwright build plate.apt --post linuxcnc --deps plate.d --deps-format make";
+
+const CL_EXAMPLES: &str = "\
+Build takes CL files, too, where their name (.cls .clsf .ncl .nci .as .aptsource .cl) or what stands in them tells.
+
+Examples:
+  partwright cl pocket.cls --post heidenhain
+  partwright cl bracket.ncl --post fanuc -D SPINDL=3000     a speed for a file that gives none
+  partwright cl part.txt --producer catia --lenient --post sinumerik";
 
 const PLOT_EXAMPLES: &str = "\
 Examples:
@@ -115,6 +126,12 @@ pub struct CommonArgs {
     /// Give the PARAM called NAME another value, as it would stand in the program.
     #[arg(short = 'D', long = "define", value_name = "NAME=VALUE")]
     pub define: Vec<String>,
+    /// The system that wrote a CL file, where it is not recognised: nx, catia, creo, solidworks, ncl, mastercam, plain.
+    #[arg(long, value_name = "NAME")]
+    pub producer: Option<String>,
+    /// Go on, with warnings, where a CL file has records that are not known or cannot be carried out.
+    #[arg(long)]
+    pub lenient: bool,
     /// Make a warning code (or `warnings`, all of them) an error.
     #[arg(long, value_name = "CODE")]
     pub deny: Vec<String>,

@@ -10,10 +10,10 @@ use super::messages::{self, Messages, to_stderr};
 use super::output::{self, Product};
 use super::progress::Progress;
 use super::{Status, deps, report};
-use crate::diag::codes::{command as codes, verification};
+use crate::diag::codes::{command as codes, foreign, verification};
 use crate::diag::{Diagnostic, Severity};
 use crate::driver::{self, Build, Output};
-use crate::syntax;
+use crate::{clfile, syntax};
 
 /// One source file and what came of it.
 pub struct Compiled {
@@ -35,7 +35,19 @@ impl Compiled {
 
 /// Compiles and writes.
 pub fn build(args: &BuildArgs, messages: Messages) -> Result<Status, Diagnostic> {
-    let mut options = driver_options(&args.common)?;
+    build_with(args, driver_options(&args.common)?, messages)
+}
+
+/// The same, and every file is a CL file.
+pub fn cl(args: &BuildArgs, messages: Messages) -> Result<Status, Diagnostic> {
+    build_with(args, driver::Options { is_cl: true, ..driver_options(&args.common)? }, messages)
+}
+
+fn build_with(
+    args: &BuildArgs,
+    mut options: driver::Options,
+    messages: Messages,
+) -> Result<Status, Diagnostic> {
     options.posts.clone_from(&args.post);
     options.post_set = args.overrides.pairs()?;
     options.keep_ast = args.emit.contains(&Stage::Ast);
@@ -77,7 +89,13 @@ pub fn driver_options(common: &CommonArgs) -> Result<driver::Options, Diagnostic
         set_threads(jobs)?;
     }
     let defines = common.define.iter().map(|d| define(d)).collect::<Result<_, _>>()?;
-    Ok(driver::Options { defines, ..driver::Options::default() })
+    let producer = common.producer.as_deref().map(producer).transpose()?;
+    let cl = clfile::Options { producer, lenient: common.lenient, defines: Vec::new() };
+    Ok(driver::Options { defines, cl, ..driver::Options::default() })
+}
+
+fn producer(name: &str) -> Result<clfile::Producer, Diagnostic> {
+    clfile::producer_named(name).map_err(|why| Diagnostic::global(&foreign::UNKNOWN_PRODUCER, why))
 }
 
 fn set_threads(jobs: usize) -> Result<(), Diagnostic> {

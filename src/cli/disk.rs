@@ -13,6 +13,8 @@ use crate::source::{FileError, FileProvider};
 
 /// The largest file that is read, bytes.
 pub const LARGEST: u64 = 64 * 1024 * 1024;
+/// The largest CL file, bytes; places in it are counted in 32 bits.
+pub const LARGEST_CL: u64 = 4_000_000_000;
 /// The name of standard input on the command line.
 pub const STDIN: &str = "-";
 /// Its name in messages.
@@ -46,7 +48,7 @@ impl Disk {
 impl FileProvider for Disk {
     fn read(&self, from: Option<&str>, path: &str) -> Result<(String, String), FileError> {
         if from.is_none() && path == STDIN {
-            let text = decode(read_limited(std::io::stdin().lock())?)?;
+            let text = decode(read_limited(std::io::stdin().lock(), LARGEST)?)?;
             return Ok((STDIN_NAME.to_owned(), text));
         }
         let folder = from.and_then(|f| Path::new(f).parent()).unwrap_or(Path::new(""));
@@ -59,18 +61,40 @@ impl FileProvider for Disk {
             return Err(FileError::Other("it is a directory".to_owned()));
         }
         let file = std::fs::File::open(&real).map_err(|e| system(&e))?;
-        let text = decode(read_limited(file)?)?;
+        let text = decode(read_limited(file, LARGEST)?)?;
         Ok((self.display_name(real, &path), text))
+    }
+
+    fn read_cl(&self, path: &str) -> Result<(String, String), FileError> {
+        if path == STDIN {
+            return Ok((
+                STDIN_NAME.to_owned(),
+                decode_anyhow(read_limited(std::io::stdin().lock(), LARGEST_CL)?),
+            ));
+        }
+        let path = Path::new(path);
+        let real = path.canonicalize().map_err(|e| system(&e))?;
+        if real.is_dir() {
+            return Err(FileError::Other("it is a directory".to_owned()));
+        }
+        let file = std::fs::File::open(&real).map_err(|e| system(&e))?;
+        let text = decode_anyhow(read_limited(file, LARGEST_CL)?);
+        Ok((self.display_name(real, path), text))
     }
 }
 
-fn read_limited(source: impl Read) -> Result<Vec<u8>, FileError> {
+fn read_limited(source: impl Read, largest: u64) -> Result<Vec<u8>, FileError> {
     let mut bytes = Vec::new();
-    source.take(LARGEST + 1).read_to_end(&mut bytes).map_err(|e| system(&e))?;
-    if bytes.len() as u64 > LARGEST {
-        return Err(FileError::TooLarge(LARGEST));
+    source.take(largest + 1).read_to_end(&mut bytes).map_err(|e| system(&e))?;
+    if bytes.len() as u64 > largest {
+        return Err(FileError::TooLarge(largest));
     }
     Ok(bytes)
+}
+
+/// Bytes that are not UTF-8 become replacement characters.
+fn decode_anyhow(bytes: Vec<u8>) -> String {
+    String::from_utf8(bytes).unwrap_or_else(|e| String::from_utf8_lossy(e.as_bytes()).into_owned())
 }
 
 fn decode(bytes: Vec<u8>) -> Result<String, FileError> {

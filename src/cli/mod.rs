@@ -78,6 +78,7 @@ fn dispatch(cli: &Cli) -> Status {
     let messages = Messages::of(cli);
     let result = match &cli.verb {
         Verb::Build(args) => build::build(args, messages),
+        Verb::Cl(args) => build::cl(args, messages),
         Verb::Check(args) => build::check(args, messages),
         Verb::Explain(args) => explain::explain(args.code.as_deref()).and_then(|page| print(&page)),
         Verb::Plot(args) => plot::plot(args, messages),

@@ -13,7 +13,7 @@ use crate::syntax::{self, ast};
 use crate::target::TargetProgram;
 use crate::units::LengthUnit;
 use crate::verify::Proven;
-use crate::{ir, plan, sema};
+use crate::{clfile, ir, plan, sema};
 
 mod targets;
 
@@ -28,6 +28,10 @@ pub struct Options {
     pub post_set: Vec<(String, String)>,
     /// The post when neither [`Options::posts`] nor the program names one; without it that is an error.
     pub default_post: Option<String>,
+    /// How CL files are read.
+    pub cl: clfile::Options,
+    /// The file is a CL file, whatever it is called and whatever stands in it.
+    pub is_cl: bool,
     /// Stop before lowering: all checks of the program, no output.
     pub check_only: bool,
     /// Keep the syntax tree of the main file.
@@ -82,16 +86,69 @@ pub fn build(main: &str, files: &dyn FileProvider, options: &Options) -> Build {
     let mut build = Build::default();
     let mut sink = Sink::default();
     let files = Recorder { files, names: Mutex::default() };
-    match files.read(None, main) {
+    match read_main(main, &files, options) {
         Ok((name, text)) => {
             let file = build.sources.add(name, text);
-            stages(&mut build, file, &files, options, &mut sink);
+            match cl_file(&build.sources, file, options) {
+                Some(cl) => cl_stages(&mut build, file, &files, &cl, options, &mut sink),
+                None => stages(&mut build, file, &files, options, &mut sink),
+            }
         }
         Err(error) => sink.push(unreadable(main, &error)),
     }
     build.inputs = files.names.into_inner().unwrap_or_else(PoisonError::into_inner);
     build.diagnostics = in_source_order(sink.into_items());
     build
+}
+
+/// The main file; a CL file need not be UTF-8.
+fn read_main(main: &str, files: &dyn FileProvider, options: &Options) -> Result<(String, String), FileError> {
+    if options.is_cl || options.cl.producer.is_some() || clfile::recognise(main, "").is_some() {
+        return files.read_cl(main);
+    }
+    match files.read(None, main) {
+        Err(error @ (FileError::NotUtf8(_) | FileError::TooLarge(_))) => {
+            let cl = files.read_cl(main).ok().filter(|(_, text)| clfile::recognise(main, text).is_some());
+            cl.ok_or(error)
+        }
+        read => read,
+    }
+}
+
+/// How to read the main file as a CL file, if it is one.
+fn cl_file(sources: &SourceMap, file: FileId, options: &Options) -> Option<clfile::Options> {
+    let source = sources.file(file);
+    let found = options.cl.producer.or_else(|| clfile::recognise(&source.name, &source.text));
+    let producer = found.or_else(|| options.is_cl.then_some(clfile::Producer::Plain))?;
+    Some(clfile::Options {
+        producer: Some(producer),
+        lenient: options.cl.lenient,
+        defines: options.defines.clone(),
+    })
+}
+
+/// From a CL file on.
+fn cl_stages(
+    build: &mut Build,
+    file: FileId,
+    files: &dyn FileProvider,
+    how: &clfile::Options,
+    options: &Options,
+    sink: &mut Sink,
+) {
+    let source = build.sources.file(file);
+    let (name, text) = (source.name.clone(), source.text.clone());
+    let (cl, messages) = clfile::Reader::new(file, &name, &text, how).whole();
+    let failed = messages.has_errors();
+    sink.append(messages);
+    if failed {
+        return targets::check(options, files, &mut build.sources, sink);
+    }
+    if !options.check_only {
+        let wanted = targets::wanted(options, &[], sink);
+        build.outputs = targets::make(&cl, &wanted, options, files, &mut build.sources, sink);
+    }
+    build.cl = Some(cl);
 }
 
 /// Hands files on and remembers their names.
@@ -103,11 +160,23 @@ struct Recorder<'a> {
 impl FileProvider for Recorder<'_> {
     fn read(&self, from: Option<&str>, path: &str) -> Result<(String, String), FileError> {
         let (name, text) = self.files.read(from, path)?;
-        let mut names = self.names.lock().unwrap_or_else(PoisonError::into_inner);
-        if !names.contains(&name) {
-            names.push(name.clone());
-        }
+        self.remember(&name);
         Ok((name, text))
+    }
+
+    fn read_cl(&self, path: &str) -> Result<(String, String), FileError> {
+        let (name, text) = self.files.read_cl(path)?;
+        self.remember(&name);
+        Ok((name, text))
+    }
+}
+
+impl Recorder<'_> {
+    fn remember(&self, name: &str) {
+        let mut names = self.names.lock().unwrap_or_else(PoisonError::into_inner);
+        if !names.iter().any(|n| n == name) {
+            names.push(name.to_owned());
+        }
     }
 }
 

@@ -25,6 +25,8 @@ pub(super) struct Active {
     initial: Option<i64>,
     /// Index of the target cycle that is open.
     open: Option<usize>,
+    /// It has been said that its moves are written out.
+    told: bool,
 }
 
 /// Levels of a hole, Z steps.
@@ -42,7 +44,7 @@ impl Emitter<'_> {
     /// A cycle comes into force; nothing moves.
     pub(super) fn begin_cycle(&mut self, cycle: &Cycle) {
         self.end_cycle();
-        self.cycle = Some(Active { cycle: *cycle, initial: self.at[2], open: None });
+        self.cycle = Some(Active { cycle: *cycle, initial: self.at[2], open: None, told: false });
     }
 
     /// The cycle ends.
@@ -169,7 +171,10 @@ impl Emitter<'_> {
         }
         let message =
             format!("`{}` has no cycle `{name}`: its moves are written out", self.capabilities.name);
-        self.complain(&codes::lowering::CYCLE_EXPANDED, message);
+        if let Some(active) = self.cycle.as_mut().filter(|a| !a.told) {
+            active.told = true;
+            self.complain(&codes::lowering::CYCLE_EXPANDED, message);
+        }
         self.lift(cycle, &hole);
         let turn = self.cartesian_turn();
         let over = Position { x: hole.x, y: hole.y, z: hole.clearance, r: turn };

@@ -54,6 +54,8 @@ pub(super) struct Emitter<'a> {
     pub(super) piece: Option<PieceId>,
     /// Printed positions of X, Y, Z and the rotary axis, where known.
     pub(super) at: [Option<i64>; 4],
+    /// Where they were last, for those that are not known now.
+    stale: [i64; 4],
     pub(super) feed: Option<Feed>,
     pub(super) rpm: f64,
     pub(super) operation: u32,
@@ -86,6 +88,7 @@ impl<'a> Emitter<'a> {
             of_record: None,
             piece: None,
             at: [None; 4],
+            stale: [0; 4],
             feed: None,
             rpm: 0.0,
             operation: 0,
@@ -116,6 +119,8 @@ impl<'a> Emitter<'a> {
 
     /// Positions are unknown; a machine without a rotary axis has it at 0 for ever.
     fn forget(&mut self) {
+        let here = self.here();
+        self.stale = [here.x, here.y, here.z, here.r];
         self.at = [None, None, None, self.capabilities.rotary.is_none().then_some(0)];
     }
 
@@ -266,8 +271,7 @@ impl<'a> Emitter<'a> {
     }
 
     fn from(&mut self, point: Point3) {
-        let [x, y, z] = self.round(point);
-        self.at = [Some(x), Some(y), Some(z), self.at[3]];
+        // The control has not been told: the next move prints all its words.
         self.exact = Some(point);
     }
 
@@ -364,9 +368,13 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// Known position; what is not known is 0.
+    /// Known position; what is not known is where it was last, or 0.
     pub(super) fn here(&self) -> Position {
-        let [x, y, z, r] = self.at.map(|v| v.unwrap_or(0));
+        let mut here = self.stale;
+        for (slot, known) in here.iter_mut().zip(self.at) {
+            *slot = known.unwrap_or(*slot);
+        }
+        let [x, y, z, r] = here;
         Position { x, y, z, r }
     }
 

@@ -59,11 +59,8 @@ pub const BAD_DEFINE: Code = Code {
 };
 
 /// no such producer.
-pub const UNKNOWN_PRODUCER: Code = Code {
-    id: "E1009",
-    title: "no such producer",
-    page: include_str!("../../../docs/diagnostics/E1009.md"),
-};
+pub const UNKNOWN_PRODUCER: Code =
+    Code { id: "E1009", title: "no such producer", page: include_str!("../../../docs/diagnostics/E1009.md") };
 
 /// cutter compensation of the control is left out.
 pub const NO_COMPENSATION: Code = Code {

@@ -1,0 +1,150 @@
+//! Every producer's forms, in files of our own.
+
+use super::{framed, kinds, read, read_as};
+use crate::cl::{Circle, Cl, RecordKind};
+use crate::clfile::{Producer, recognise};
+use crate::geom::Point3;
+
+fn circles(cl: &Cl) -> Vec<Circle> {
+    cl.records
+        .iter()
+        .filter_map(|r| if let RecordKind::Circle(c) = &r.kind { Some(**c) } else { None })
+        .collect()
+}
+
+fn near(a: Point3, b: [f64; 3]) -> bool {
+    (a - Point3::from(b)).norm() < 1e-6
+}
+
+#[test]
+fn files_are_recognised_by_name_and_by_content() {
+    assert_eq!(recognise("a.cls", ""), Some(Producer::Nx));
+    assert_eq!(recognise("a.nci", ""), Some(Producer::Mastercam));
+    assert_eq!(recognise("a.apt", "PARTNO/X\nUNIT/MM\nCUTTER/10\n"), Some(Producer::SolidWorks));
+    assert_eq!(recognise("a.txt", "$$* Pro/CLfile  Version\n"), Some(Producer::Creo));
+    assert_eq!(recognise("a.apt", "PARTNO X\nAUTOPS\nINDIRV/1,0,0\n"), Some(Producer::Catia));
+    assert_eq!(recognise("a.txt", "N10 , CUTTER/ 10\nN11 , GOTO/ 1,2,3\n"), Some(Producer::Ncl));
+    assert_eq!(recognise("a.apt", "T1 = CUTTER/ FLAT, 16\nLOADTL/ T1\n"), None);
+}
+
+#[test]
+fn nx_helices_turns_and_lines_without_goto() {
+    let (cl, codes) = read(
+        "TOOL PATH/POCKET_1,TOOL,MILL_10\nTLDATA/MILL,10.0,0.0,50.0,0.0,0.0\nMSYS/0,0,0,1,0,0,0,1,0\n\
+         $$ centerline data\nPAINT/PATH\nLOAD/TOOL,3,ADJUST,3\nSPINDL/RPM,2000,CLW\nPAINT/COLOR,186\nRAPID\n\
+         GOTO/10.0,0.0,2.0,0.0,0.0,1.0\nFEDRAT/MMPM,300.0\nGOTO/10.0,0.0,0.0\n\
+         CIRCLE/0.0,0.0,0.0,0.0,0.0,1.0,10.0,0.06,0.5,10.0,0.0,TIMES,3\nGOTO/0.0,10.0,-3.0\nGOTO/-5.0,10.0,-3.0\n\
+         -6.0,10.0,-3.0\n-7.0,11.0,-3.0\nEND-OF-PATH\n",
+    );
+    assert_eq!(codes, [""; 0]);
+    assert_eq!(kinds(&cl), "RLCLLL");
+    let circle = circles(&cl)[0];
+    assert_eq!((circle.turns, circle.to), (2, Point3::new(0.0, 10.0, -3.0)));
+    assert_eq!(cl.operations[0].name, "POCKET_1");
+    let (_, tool) = cl.tools.iter().next().unwrap();
+    assert_eq!((tool.name.as_str(), tool.number, tool.diameter), ("MILL_10", Some(3), 10.0));
+}
+
+#[test]
+fn nx_curves_pass_through_their_ends_within_tolerance() {
+    // A straight curve takes one line; a bent one stays within 0.01 mm of its Bézier.
+    let straight = "NURBS/\nKNOT/1.0\nCNTRL/10,1,5\nCNTRL/10,2,5\nCNTRL/10,3,5\nPAINT/COLOR,31\nGOTO/0,0,5";
+    let (cl, codes) = read_as(&framed(straight), Some(Producer::Nx), false);
+    assert_eq!((kinds(&cl).as_str(), codes.as_slice()), ("RLL", ["N1013"].as_slice()));
+    let bent = "NURBS/\nKNOT/0.5,1.0\nCNTRL/10,5,5\nCNTRL/20,5,5\nCNTRL/20,20,5\nCNTRL/30,30,5";
+    let (cl, _) = read_as(&framed(bent), Some(Producer::Nx), false);
+    let points: Vec<Point3> = cl
+        .records
+        .iter()
+        .filter_map(|r| if let RecordKind::Linear(p) = r.kind { Some(p) } else { None })
+        .collect();
+    assert!(points.len() > 8 && near(*points.last().unwrap(), [30.0, 30.0, 5.0]));
+}
+
+#[test]
+fn catia_arcs_end_on_lines_and_go_the_way_of_the_tangent() {
+    let arc = |order: &str, direction: &str| {
+        let body = format!(
+            "AUTOPS\nINDIRV/ {direction}\nTLON,GOFWD/ (CIRCLE/ 0.0, 0.0, 5.0,$\n 10.0),ON,{order}(LINE/ 0.0, 0.0, 5.0,$\n 0.0, 10.0, 5.0)\nGOTO / 0, 0, 5"
+        );
+        let (cl, codes) = read_as(&framed(&body), Some(Producer::Catia), false);
+        assert_eq!(codes, [""; 0]);
+        circles(&cl)[0]
+    };
+    let quarter = arc("", "0.0, 1.0, 0.0");
+    assert!(near(quarter.to, [0.0, 10.0, 5.0]) && quarter.axis.z > 0.0);
+    let most = arc("2,INTOF,", "0.0, 1.0, 0.0");
+    assert!(near(most.to, [0.0, -10.0, 5.0]) && most.axis.z > 0.0);
+    let back = arc("", "0.0, -1.0, 0.0");
+    assert!(near(back.to, [0.0, -10.0, 5.0]) && back.axis.z < 0.0);
+}
+
+#[test]
+fn catia_full_circles_and_helices() {
+    let full =
+        "AUTOPS\nINDIRV/ 0, 1, 0\nTLON,GOFWD/ (CIRCLE/ 0, 0, 5, 10),ON,2,INTOF,(LINE/ 0, 0, 5, 10, 0, 5)";
+    let (cl, codes) = read_as(&framed(full), Some(Producer::Catia), false);
+    assert_eq!(codes, [""; 0]);
+    assert!(near(circles(&cl)[0].to, [10.0, 0.0, 5.0]));
+    let helix = "HELICAL/ 0, 0, 5, 0, 1, 0, 0, 0, 1, 2, 10, 10, 0, 0";
+    let (cl, codes) = read_as(&framed(helix), Some(Producer::Catia), false);
+    // 5 mm down at 2 mm a turn: two whole turns, and the end is over the start.
+    assert_eq!((codes.as_slice(), circles(&cl)[0].turns), ([""; 0].as_slice(), 2));
+}
+
+#[test]
+fn creo_metadata_and_many_points_on_an_arc() {
+    let (cl, codes) = read(
+        "$$*         Pro/CLfile  Version\n$$-> MFGNO / PART\nPARTNO / PART\n$$-> FEATNO / 12\nMACHIN / UNCX01, 1\n\
+         UNITS / MM\nLOADTL / 4\n$$-> CUTTER / 12.000000\n$$-> CSYS / 1.0, 0.0, 0.0, 0.0, $\n 0.0, 1.0, 0.0, 0.0, $\n 0.0, 0.0, 1.0, 0.0\n\
+         SPINDL / RPM, 1500.000000,  CLW\nRAPID\nGOTO / 10.0, 0.0, 5.0\nFEDRAT / 250.0,  MMPM\nGOTO / 10.0, 0.0, 0.0\n\
+         CIRCLE / 0.0, 0.0, 0.0, $\n 0.0, 0.0, 1.0, 10.0\nGOTO / 7.0710678119, 7.0710678119, 0.0\nGOTO / 0.0, 10.0, 0.0\n\
+         GOTO / -20.0, 10.0, 0.0\n$$-> END /\nFINI\n",
+    );
+    assert_eq!(codes, [""; 0]);
+    assert_eq!(kinds(&cl), "RLCL");
+    let (_, tool) = cl.tools.iter().next().unwrap();
+    assert_eq!((tool.number, tool.diameter), (Some(4), 12.0));
+}
+
+#[test]
+fn the_points_tell_the_sense_of_an_arc_of_many_points() {
+    let body = "GOTO/10,0,0\nCIRCLE/0,0,0,0,0,1,10\nGOTO/7.0710678119,-7.0710678119,0\nGOTO/0,-10,0";
+    let (cl, _) = read_as(&framed(body), Some(Producer::Ncl), false);
+    assert!(circles(&cl)[0].axis.z < 0.0);
+}
+
+#[test]
+fn solidworks_circles_without_radius_and_inserts_as_comments() {
+    let (cl, codes) = read(
+        "PARTNO/1\nUNIT/MM\nINSERT/[HOLDER=A] 10MM END MILL\nCUTTER/10.,0,5.,0,0,0,40.\nLOAD/TOOL,2\nCSI_SET_FLUTE_LENGTH/20.\n\
+         COOLNT/FLOOD\nSPINDL/3000,RPM,CLW\nTRNTYP/WORLD,0,0,0\nCSYS/1.,0,0,0,0,1.,0,0,0,0,1.,0\nRAPID/\nGOTO/.5,0,25.\n\
+         FEDRAT/200.,MMPM\nGOTO/.5,0,-1.\nCIRCLE/0,0,-1.,0,0,-1.\nGOTO/-.5,0,-1.\nFINI\n",
+    );
+    assert_eq!(codes, [""; 0]);
+    assert_eq!(kinds(&cl), "RLC");
+    assert!(cl.records.iter().any(|r| matches!(&r.kind, RecordKind::Comment(t) if t.contains("END MILL"))));
+    assert!(!cl.records.iter().any(|r| matches!(r.kind, RecordKind::Insert(_))));
+}
+
+#[test]
+fn ncl_line_numbers_and_tildes() {
+    let (cl, codes) = read(
+        "N1 , UNITS/ MM\nN2 , LOADTL/ 1\nN3 , SPINDL/ 800, ~\n CLW\nN4 , FEDRAT/ 100, MMPM\nN5 , RAPID\nN6 , GOTO/ 0, 0, 5\n\
+         N7 , GOTO/ 1, 0, 5\n GOTO/ 2, 0, 5\nN8 , FINI\n",
+    );
+    assert_eq!(codes, [""; 0]);
+    assert_eq!(kinds(&cl), "RLL");
+}
+
+#[test]
+fn mastercam_pairs() {
+    let text = "1050\n9.1 0 0\n1001\n0 100 10 5 5 5 0 -1500 200. 1\n1002\n0 100 10 5 5 5 0 -1500 200. 1\n0\n0 10. 0. 5. -2. 0\n\
+                1\n0 10. 0. -1. 100. 0\n3\n0 0 0. 10. -1. 0. 0. -1. 200. 0\n1003\n0\n";
+    let (cl, codes) = read_as(text, Some(Producer::Mastercam), false);
+    assert_eq!(codes, [""; 0]);
+    assert_eq!(kinds(&cl), "RLC");
+    assert!(circles(&cl)[0].axis.z > 0.0);
+    let (_, codes) = read_as("81\n0 1 2 3\n", Some(Producer::Mastercam), false);
+    assert_eq!(codes, ["E1003"]);
+}

@@ -1,0 +1,150 @@
+//! Words by class, strictness, arcs that are not to be trusted, cycles.
+
+use super::{framed, kinds, read, read_as};
+use crate::cl::{CycleKind, RecordKind, RetractTo};
+use crate::ir::{Feed, Spindle};
+
+#[test]
+fn nothing_is_dropped_in_silence() {
+    for (record, code) in [
+        ("FOOBAR/ 1, 2", "E1001"),
+        ("GOTO/ 1, 2", "E1002"),
+        ("GOTO/ 1, 2, (3", "E1002"),
+        ("ROTABL/ 45, CLW", "E1003"),
+        ("TRANS/ 0, 0, 5", "E1003"),
+        ("AUXFUN/ 77", "E1003"),
+        ("GOTO/ 1, 2, 3, 0, 1, 0", "E1004"),
+        ("CIRCLE/ 0, 0, 5, 0, 0, 1, 10\nGOTO/ 0, 14, 5", "E1005"),
+        ("CYCLE/ DEEP, FEDTO, 20, MMPM, 120, RAPTO, 2", "E1006"),
+        ("CYCLE/ DRILL, FEDTO, 20, MMPM, 120", "E1006"),
+        ("CYCLE/ WOBBLE, FEDTO, 20, MMPM, 120, RAPTO, 2", "E1006"),
+        ("NURBS/\nKNOT/ 0.5, 1.0\nCNTRL/ 1, 0, 0", "E1007"),
+        ("CUTCOM/ LEFT, XYPLAN", "W1010"),
+        ("CIRCLE/ 0, 0, 5, 0, 0, 1, 10\nGOTO/ 0, 10.05, 5", "W1011"),
+        ("LOADTL/ 2\nGOTO/ 0, 0, 50", "W1012"),
+    ] {
+        let (_, codes) = read(&framed(record));
+        assert_eq!(codes, [code], "{record}");
+    }
+}
+
+#[test]
+fn lenient_reading_makes_warnings_of_what_can_be_left_out() {
+    use crate::diag::Severity;
+    let text = framed("FOOBAR/ 1\nROTABL/ 45\nGOTO/ 20, 0, 5");
+    let options = crate::clfile::Options { lenient: true, ..Default::default() };
+    let (cl, sink) = crate::clfile::Reader::new(crate::source::FileId(0), "a.cl", &text, &options).whole();
+    assert!(!sink.has_errors() && sink.items().iter().all(|d| d.severity == Severity::Warning));
+    assert_eq!((sink.items().len(), kinds(&cl).as_str()), (2, "RL"));
+}
+
+#[test]
+fn harmless_words_and_zero_shifts_pass() {
+    let (_, codes) =
+        read(&framed("PAINT/COLOR,31\nSEQNO/10\nTRANS/0,0,0\nSELECT/TOOL,4\nCLPRNT\nREMARK nothing"));
+    assert_eq!(codes, [""; 0]);
+}
+
+#[test]
+fn what_is_missing_is_said_once() {
+    let (_, codes) = read("RAPID\nGOTO/0,0,5\nGOTO/1,0,5\nGOTO/2,0,5\n");
+    assert_eq!(codes.len(), 3, "{codes:?}");
+    let defines = [("SPINDL", "1200"), ("FEDRAT", "300"), ("LOADTL", "1")];
+    let defines = defines.map(|(a, b)| (a.to_owned(), b.to_owned())).to_vec();
+    let options = crate::clfile::Options { defines, ..Default::default() };
+    let text = "RAPID\nGOTO/0,0,5\nGOTO/1,0,5\n";
+    let (_, sink) = crate::clfile::Reader::new(crate::source::FileId(0), "a.cl", text, &options).whole();
+    assert_eq!(sink.items().len(), 0, "{:?}", sink.items());
+    let options =
+        crate::clfile::Options { defines: vec![("SPEED".into(), "1".into())], ..Default::default() };
+    let (_, sink) = crate::clfile::Reader::new(crate::source::FileId(0), "a.cl", "", &options).whole();
+    assert_eq!(sink.items()[0].code.id, "E1008");
+}
+
+#[test]
+fn feeds_and_speeds_in_either_order_and_in_their_own_units() {
+    let feed = |record: &str| {
+        let (cl, codes) = read(&framed(&format!("{record}\nGOTO/ 1, 1, 1")));
+        assert_eq!(codes, [""; 0], "{record}");
+        cl.records.iter().rev().find_map(|r| if let RecordKind::Feed(f) = r.kind { Some(f) } else { None })
+    };
+    assert_eq!(feed("FEDRAT/ 300, MMPM"), Some(Feed::PerMinute(300.0)));
+    assert_eq!(feed("FEDRAT/ MMPM, 300"), Some(Feed::PerMinute(300.0)));
+    assert_eq!(feed("FEDRAT/ IPM, 10"), Some(Feed::PerMinute(254.0)));
+    assert_eq!(feed("FEDRAT/ MMPR, 0.2"), Some(Feed::PerRevolution(0.2)));
+    let speed = |record: &str| {
+        let (cl, _) =
+            read(&framed(&format!("CUTTER/ 10\nLOADTL/ 2\n{record}\nRAPID\nGOTO/ 1, 1, 1\nGOTO/ 2, 1, 1")));
+        cl.records.iter().rev().find_map(|r| if let RecordKind::Spindle(s) = r.kind { Some(s) } else { None })
+    };
+    assert_eq!(speed("SPINDL/ RPM, 900, CCLW"), Some(Spindle::On { rpm: 900.0, clockwise: false }));
+    assert_eq!(speed("SPINDL/ 900, RPM"), Some(Spindle::On { rpm: 900.0, clockwise: true }));
+    let Some(Spindle::On { rpm, .. }) = speed("SPINDL/ 31.4159265, SMM, CLW") else { panic!("no speed") };
+    assert!((rpm - 1000.0).abs() < 1e-3);
+}
+
+#[test]
+fn cycles_in_their_spellings() {
+    let cycle = |record: &str| {
+        let (cl, codes) =
+            read(&framed(&format!("{record}\nGOTO/ 10, 0, 0\nGOTO/ 20, 0, 0\nCYCLE/ OFF\nGOTO/ 20, 0, 30")));
+        assert_eq!(codes, [""; 0], "{record}");
+        assert!(kinds(&cl).ends_with("BHHEL"), "{} {record}", kinds(&cl));
+        cl.records
+            .iter()
+            .find_map(|r| if let RecordKind::BeginCycle(c) = &r.kind { Some(**c) } else { None })
+            .unwrap()
+    };
+    let nx = cycle("CYCLE/DRILL,RAPTO,3.0,FEDTO,-12.0,RTRCTO,20.0,MMPM,120.0");
+    assert_eq!(
+        (nx.kind, nx.depth, nx.clearance, nx.retract),
+        (CycleKind::Drill, 12.0, 3.0, RetractTo::Initial)
+    );
+    let creo = cycle("CYCLE / DEEP, DEPTH, 20, STEP, 4, MMPM, 100, CLEAR, 2");
+    assert_eq!((creo.kind, creo.peck, creo.retract), (CycleKind::Deep, Some(4.0), RetractTo::Clearance));
+    let solid = cycle("CYCLE/DEEP2,FEDTO,9.5,1STPECK,5.,SUBPECK,2.,MMPM,102.5,RAPTO,3.,RTRCTO,25.");
+    assert_eq!((solid.peck, solid.first_peck), (Some(2.0), Some(5.0)));
+    let positional = cycle("CYCLE/ DRILL, 15, MMPM, 80, 2");
+    assert_eq!((positional.depth, positional.clearance), (15.0, 2.0));
+    assert_eq!(positional.feed, Feed::PerMinute(80.0));
+    let face = cycle("CYCLE/ FACE, FEDTO, 2, MMPM, 50, RAPTO, 2, DWELL, 1.5");
+    assert_eq!((face.kind, face.dwell), (CycleKind::Dwell, Some(1.5)));
+    let tap = cycle("CYCLE/ TAP, FEDTO, 12, MMPR, 1.25, RAPTO, 5");
+    assert_eq!(tap.kind, CycleKind::Tap { pitch: 1.25, left: false });
+    assert_eq!(cycle("CYCLE/ BORE, FEDTO, 9, MMPM, 60, RAPTO, 2").kind, CycleKind::Bore);
+    assert_eq!(cycle("CYCLE/ BORE, FEDTO, 9, MMPM, 60, RAPTO, 2, DWELL, 1").kind, CycleKind::BoreDwell);
+}
+
+#[test]
+fn a_rapid_between_holes_leaves_the_cycle_in_force() {
+    let body =
+        "CYCLE/DRILL,FEDTO,5,MMPM,100,RAPTO,2\nGOTO/10,0,0\nRAPID\nGOTO/10,0,40\nGOTO/50,0,0\nCYCLE/OFF";
+    let (cl, codes) = read(&framed(body));
+    assert_eq!((kinds(&cl).as_str(), codes.as_slice()), ("RBHERBHE", [""; 0].as_slice()));
+}
+
+#[test]
+fn inch_files_are_read_in_inches() {
+    let text = "LOADTL/1\nSPINDL/1000\nFEDRAT/10,IPM\nRAPID\nGOTO/1,0,0\nGOTO/2,0,0\n";
+    let (cl, _) = read_as(text, None, false);
+    let last = cl
+        .records
+        .iter()
+        .rev()
+        .find_map(|r| if let RecordKind::Linear(p) = r.kind { Some(p.x) } else { None });
+    assert_eq!(last, Some(50.8));
+}
+
+#[test]
+fn chunks_are_the_whole() {
+    let body: String = (0..500).map(|i| format!("GOTO/{i}.5,{},0\n", i % 7)).collect();
+    let text = framed(&body);
+    let (whole, _) = read(&text);
+    let options = crate::clfile::Options::default();
+    let mut reader = crate::clfile::Reader::new(crate::source::FileId(0), "part.cl", &text, &options);
+    let mut joined = String::new();
+    while let Some(chunk) = reader.chunk(37) {
+        joined += &kinds(&chunk);
+    }
+    assert_eq!(joined, kinds(&whole));
+}
