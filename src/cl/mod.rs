@@ -135,7 +135,7 @@ pub enum RecordKind {
     Comment(String),
     /// Verbatim block.
     Insert(String),
-    /// The cutter is here; no move.
+    /// The cutter is here, or goes here at rapid.
     From(Point3),
     /// Straight at rapid.
     Rapid(Point3),

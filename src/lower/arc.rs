@@ -52,6 +52,18 @@ impl GridArc {
             GridArc { start: middle, to: self.start, centre: back, clockwise: self.clockwise },
         ]
     }
+    /// Points of the arc that are furthest out along an axis, in linear steps; ends not counted.
+    pub fn extremes(&self, scale: i64) -> Vec<[f64; 2]> {
+        let (a, _) = self.spokes(scale);
+        let (r0, r1) = self.radii(scale);
+        let radius = r0.max(r1) / scale as f64;
+        let hub = [0, 1].map(|i| self.start[i] as f64 + self.centre[i] as f64 / scale as f64);
+        let (sweep, start) = (self.sweep(scale), atan2(a[1], a[0]));
+        let ahead = |angle: f64| if self.clockwise { start - angle } else { angle - start };
+        let sides = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)];
+        let reached = sides.into_iter().filter(|(c, s)| ahead(atan2(*s, *c)).rem_euclid(TAU) <= sweep);
+        reached.map(|(c, s)| [hub[0] + radius * c, hub[1] + radius * s]).collect()
+    }
     /// Sweep, 0 < sweep <= 2π, in its own sense.
     pub fn sweep(&self, scale: i64) -> f64 {
         if self.start == self.to {
@@ -79,9 +91,9 @@ pub(super) fn legalise(arc: GridArc, capabilities: &Capabilities) -> Result<Vec<
     let radius = r0.max(r1) * mm;
     let sweep = arc.sweep(scale);
     let (smallest, largest) = capabilities.radius_range;
-    // The sagitta tells whether a line is the same to the control: less than a quarter of a step.
+    // A line is the same to the control where neither the sagitta nor the turn at the joints shows.
     let sagitta = radius * (1.0 - crate::math::cos((sweep / 2.0).min(crate::math::PI)));
-    if arc.start != arc.to && sagitta < grid.linear_step() / 4.0 {
+    if arc.start != arc.to && sagitta < grid.linear_step() / 4.0 && sweep / 2.0 < STRAIGHT {
         return Ok(vec![Legal::Line(arc.to)]);
     }
     if radius < smallest || radius > largest {
@@ -91,6 +103,9 @@ pub(super) fn legalise(arc: GridArc, capabilities: &Capabilities) -> Result<Vec<
     let pieces = pieces(sweep, arc.start == arc.to, capabilities);
     Ok(split(&arc, pieces, scale).into_iter().map(Legal::Arc).collect())
 }
+
+/// An arc that turns less than this to either side of its chord is a line, radians: a fifth of what joints may turn.
+const STRAIGHT: f64 = 0.01 * crate::math::DEG;
 
 /// Centre steps in a linear step.
 pub(super) fn centre_per_linear(capabilities: &Capabilities) -> i64 {

@@ -3,8 +3,8 @@
 use super::arc::{GridArc, Legal, centre_per_linear, legalise};
 use super::contour::Fitted;
 use super::emit::Emitter;
-use super::fit::Primitive;
-use super::lead::{self, LeadPath};
+use super::fit::{Fit, Primitive};
+use super::lead::{self, End, LeadPath, Ways};
 use super::{feed, path, rotary};
 use crate::cl::{Contour, Lead};
 use crate::diag::codes;
@@ -26,13 +26,8 @@ impl Emitter<'_> {
     }
 
     fn level(&mut self, contour: &Contour, fitted: &Fitted, z: f64, level: i64) {
-        let scale = centre_per_linear(self.capabilities);
-        let step = self.capabilities.grid.linear_step();
         let fit = &fitted.fit;
-        let tangent = path::start_tangent(fit, scale);
-        let entry = lead::entry(contour.entry, fit.start, tangent, contour.part, step);
-        let exit =
-            lead::exit(contour.exit, path::last_end(fit), path::end_tangent(fit, scale), contour.part, step);
+        let (entry, exit) = self.leads(contour, fit);
         let turn = self.cartesian_turn();
         let [x, y] = entry.map_or(fit.start, |l| l.far);
         let above = Position { x, y, z: level, r: turn };
@@ -77,16 +72,39 @@ impl Emitter<'_> {
     }
 
     fn lead(&mut self, path: &LeadPath, to: Position, feed: FeedWord) {
+        let here = self.here();
+        let from = [here.x, here.y];
+        let Some((centre, clockwise)) = path.arc else { return self.line(to, feed) };
         if !self.capabilities.arcs {
-            let here = self.here();
-            for [x, y] in lead::chords(path, [here.x, here.y], [to.x, to.y]) {
+            for [x, y] in lead::chords(path, from, [to.x, to.y]) {
                 self.line(Position { x, y, ..to }, feed);
             }
             return;
         }
         let scale = centre_per_linear(self.capabilities);
-        self.arrive(to);
-        self.push(lead::motion(path, to, feed, scale));
+        let arc = GridArc { start: from, to: [to.x, to.y], centre: centre.map(|v| v * scale), clockwise };
+        self.arc(arc, to, feed);
+    }
+
+    /// The leads at both ends of a fitted chain.
+    fn leads(&mut self, contour: &Contour, fit: &Fit) -> (Option<LeadPath>, Option<LeadPath>) {
+        let asked = |lead: Lead| !matches!(lead, Lead::None | Lead::Plunge);
+        if !asked(contour.entry) && !asked(contour.exit) {
+            return (None, None);
+        }
+        let scale = centre_per_linear(self.capabilities);
+        let ways = Ways::new(contour, self.capabilities.grid.linear_step());
+        // The corner between a chord and the next is no tangent to follow.
+        let smooth = |p: Option<&Primitive>| p.is_some_and(|p| !matches!(p, Primitive::Line { .. }));
+        let first = path::start_tangent(fit, scale).filter(|_| smooth(fit.primitives.first()));
+        let last = path::end_tangent(fit, scale).filter(|_| smooth(fit.primitives.last()));
+        let entry = ways.lead(End::Entry, fit.start, first);
+        let exit = ways.lead(End::Exit, path::last_end(fit), last);
+        if asked(contour.entry) && entry.is_none() || asked(contour.exit) && exit.is_none() {
+            let message = "every tangent lead touches the part: the cutter goes straight down or up there";
+            self.complain(&codes::planning::NO_ROOM_FOR_LEAD, message.into());
+        }
+        (entry, exit)
     }
 
     fn arrive(&mut self, to: Position) {
@@ -162,7 +180,8 @@ impl Emitter<'_> {
     fn legal(&mut self, part: Legal, from: Position, feed: FeedWord) {
         match part {
             Legal::Line([x, y]) => self.line(Position { x, y, ..from }, feed),
-            Legal::Arc(GridArc { to: [x, y], centre, clockwise, .. }) => {
+            Legal::Arc(arc @ GridArc { to: [x, y], centre, clockwise, .. }) => {
+                self.check_bulge(&arc);
                 let to = Position { x, y, ..from };
                 self.arrive(to);
                 self.push(Motion::Arc { to, plane: Plane::Xy, centre, clockwise, feed });
@@ -179,6 +198,7 @@ impl Emitter<'_> {
         feed: FeedWord,
     ) {
         let curve = u32::try_from(self.nurbs.len()).unwrap_or(u32::MAX);
+        points.iter().for_each(|(p, _)| self.check_plane(p.map(|v| v as f64)));
         let points = points.iter().map(|&([x, y], w)| (Position { x, y, ..from }, w)).collect();
         self.nurbs.push(Nurbs { order, points, knots: knots.to_vec() });
         self.push(Motion::Nurbs { curve, feed });

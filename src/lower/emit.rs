@@ -163,8 +163,7 @@ impl<'a> Emitter<'a> {
             RecordKind::OptionalStop => self.optional_stop(),
             RecordKind::Comment(text) => self.event(BlockKind::Comment(text.clone())),
             RecordKind::Insert(text) => self.event(BlockKind::Insert(text.clone())),
-            RecordKind::From(point) => self.from(*point),
-            RecordKind::Rapid(point) => {
+            RecordKind::From(point) | RecordKind::Rapid(point) => {
                 let end = self.aim(index, *point, fitted);
                 self.rapid_record(end);
                 self.exact = Some(*point);
@@ -268,11 +267,6 @@ impl<'a> Emitter<'a> {
             self.complain(&codes::lowering::OPTIONAL_STOP, message);
             self.event(BlockKind::Stop);
         }
-    }
-
-    fn from(&mut self, point: Point3) {
-        // The control has not been told: the next move prints all its words.
-        self.exact = Some(point);
     }
 
     /// A point in linear steps.
@@ -379,6 +373,10 @@ impl<'a> Emitter<'a> {
     }
 
     fn linear_record(&mut self, [x, y, z]: [i64; 3]) {
+        if self.at[..3].contains(&None) {
+            let message = "a cut from where the machine happens to stand, and nobody knows where that is";
+            self.complain(&codes::planning::NO_START, message.into());
+        }
         let turn = self.cartesian_turn();
         if self.at[3] != Some(turn) {
             self.rapid_axes(Position { r: turn, ..self.here() }, axes::ROTARY);
@@ -459,7 +457,7 @@ impl<'a> Emitter<'a> {
             if value.abs() > limit {
                 self.too_large(i, value, limit);
             } else if let Some(Some(range)) = self.capabilities.travel.get(i) {
-                self.check_travel(i, value, *range);
+                self.check_travel(i, value as f64, *range);
             }
         }
     }
@@ -479,8 +477,25 @@ impl<'a> Emitter<'a> {
         self.complain(&codes::lowering::TOO_LARGE, message);
     }
 
-    fn check_travel(&mut self, axis: usize, value: i64, (low, high): (f64, f64)) {
-        let mm = value as f64 * self.capabilities.grid.linear_step();
+    /// The furthest points of an arc in X and Y against the travel.
+    pub(super) fn check_bulge(&mut self, arc: &super::arc::GridArc) {
+        if self.capabilities.travel.iter().any(Option::is_some) {
+            let scale = super::arc::centre_per_linear(self.capabilities);
+            arc.extremes(scale).into_iter().for_each(|p| self.check_plane(p));
+        }
+    }
+
+    /// X and Y in linear steps against the travel.
+    pub(super) fn check_plane(&mut self, point: [f64; 2]) {
+        for (i, value) in point.into_iter().enumerate() {
+            if let Some(Some(range)) = self.capabilities.travel.get(i) {
+                self.check_travel(i, value, *range);
+            }
+        }
+    }
+
+    fn check_travel(&mut self, axis: usize, value: f64, (low, high): (f64, f64)) {
+        let mm = value * self.capabilities.grid.linear_step();
         if !(low..=high).contains(&mm) {
             let message =
                 format!("{} = {mm:.4} mm is outside the travel of {low} to {high} mm", AXIS_NAMES[axis]);

@@ -113,10 +113,10 @@ impl Planner<'_> {
         let index = self.begin(operation, origin);
         self.emit(RecordKind::Contour(Box::new(record)), origin);
         self.emit(RecordKind::EndOperation(index), origin);
-        self.state.position = None;
     }
 
     pub(super) fn begin(&mut self, operation: Operation, origin: Handle<Origin>) -> u32 {
+        self.start_operation();
         let index = u32::try_from(self.cl.operations.len()).unwrap_or(u32::MAX);
         self.cl.operations.push(operation);
         self.emit(RecordKind::BeginOperation(index), origin);

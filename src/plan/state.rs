@@ -4,7 +4,7 @@ use super::Planner;
 use crate::arena::Handle;
 use crate::cl::{Record, RecordKind};
 use crate::diag::Diagnostic;
-use crate::diag::codes::planning::{NO_FEED, NO_FLUTES, NO_TOOL, SPINDLE_OFF};
+use crate::diag::codes::planning::{NO_FEED, NO_FLUTES, NO_START, NO_TOOL, SPINDLE_OFF};
 use crate::geom::Point3;
 use crate::ir::{Feed, Origin, Spindle, Tool};
 
@@ -17,12 +17,29 @@ pub(super) struct State {
     pub feed: Option<Feed>,
     /// As last recorded.
     pub recorded_feed: Option<Feed>,
-    pub position: Option<Point3>,
+    /// The cutter is at a known place: not before the first `FROM` or rapid, nor after a tool change.
+    pub placed: bool,
+    /// `FROM` since the last move.
+    from: Option<From>,
+}
+
+/// Where `FROM` says that the cutter is.
+#[derive(Debug, Clone, Copy)]
+struct From {
+    point: Point3,
+    origin: Handle<Origin>,
 }
 
 impl Default for State {
     fn default() -> State {
-        State { tool: None, spindle: Spindle::Off, feed: None, recorded_feed: None, position: None }
+        State {
+            tool: None,
+            spindle: Spindle::Off,
+            feed: None,
+            recorded_feed: None,
+            placed: false,
+            from: None,
+        }
     }
 }
 
@@ -51,8 +68,13 @@ impl Planner<'_> {
 
     pub(super) fn load(&mut self, tool: Handle<Tool>, origin: Handle<Origin>) {
         self.state.tool = Some(tool);
-        self.state.position = None;
+        // A tool change stops the spindle, and moves the machine to where it changes.
+        self.state.spindle = Spindle::Off;
+        self.state.placed = false;
         self.emit(RecordKind::LoadTool(tool), origin);
+        if let Some(from) = self.state.from {
+            self.go_from(from);
+        }
     }
 
     pub(super) fn spindle(&mut self, spindle: Spindle, origin: Handle<Origin>) {
@@ -75,26 +97,72 @@ impl Planner<'_> {
         }
     }
 
+    /// `FROM` before the first tool change waits for it; else the cutter goes there. Another tool change before
+    /// the next move brings it back there.
     pub(super) fn from(&mut self, point: Point3, origin: Handle<Origin>) {
-        self.state.position = Some(point);
-        self.emit(RecordKind::From(point), origin);
+        let from = From { point, origin };
+        self.state.from = Some(from);
+        if self.state.tool.is_some() {
+            self.go_from(from);
+        }
+    }
+
+    fn go_from(&mut self, from: From) {
+        self.state.placed = true;
+        self.emit(RecordKind::From(from.point), from.origin);
+    }
+
+    /// An operation comes to its first point by itself, from wherever the machine is.
+    pub(super) fn start_operation(&mut self) {
+        self.leave_from();
+        self.state.placed = true;
+    }
+
+    /// Before a move: a `FROM` that no tool change has carried out is carried out.
+    fn leave_from(&mut self) {
+        if let Some(from) = self.state.from.take().filter(|_| !self.state.placed) {
+            self.go_from(from);
+        }
     }
 
     pub(super) fn rapid(&mut self, to: Point3, origin: Handle<Origin>) {
-        self.state.position = Some(to);
+        self.leave_from();
+        self.state.placed = true;
         self.emit(RecordKind::Rapid(to), origin);
     }
 
     pub(super) fn linear(&mut self, to: Point3, origin: Handle<Origin>) {
-        self.state.position = Some(to);
+        self.leave_from();
+        self.state.placed = true;
         self.emit(RecordKind::Linear(to), origin);
     }
 
     /// A `GOTO` at feed.
     pub(super) fn goto(&mut self, to: Point3, origin: Handle<Origin>) {
-        if self.ready("GOTO", None, origin).is_some() {
+        let ready = self.ready("GOTO", None, origin).is_some();
+        let placed = self.state.placed || self.state.from.is_some();
+        if !placed {
+            self.report_no_start(origin);
+        }
+        if ready && placed {
             self.linear(to, origin);
         }
+        // One message is enough.
+        self.state.placed = true;
+    }
+
+    fn report_no_start(&mut self, origin: Handle<Origin>) {
+        let message =
+            if self.cl.records.iter().any(|r| matches!(r.kind, RecordKind::Rapid(_) | RecordKind::Linear(_)))
+            {
+                "GOTO cuts from where the tool change left the machine, and nobody knows where that is"
+            } else {
+                "GOTO cuts from where the machine happens to stand, and nobody knows where that is"
+            };
+        let diagnostic = Diagnostic::new(&NO_START, self.span(origin), message).help(
+            "say where the cutter is before it, `FROM/ 0, 0, 50`, or go to the first point at rapid: `RAPID` and `GOTO/ …`",
+        );
+        self.report(diagnostic, origin);
     }
 
     /// Tool, spindle and feed for a cut; what is missing is reported, all of it at once.

@@ -29,7 +29,9 @@ impl Planner<'_> {
     ) -> Option<Track> {
         let entity = &self.program.cams[cam];
         let cam_shape = &entity.cam;
-        let wall = |flank| Wall { centre: cam_shape.centre(flank, radius), part: cam_shape.material(flank) };
+        // A negative allowance is a cut into the drawn part that is asked for.
+        let contact = radius + leave.min(0.0);
+        let wall = |flank| Wall { centre: cam_shape.centre(flank, contact), part: cam_shape.material(flank) };
         let track = Track {
             cut: cam_shape.centre(flank, radius + leave),
             part: cam_shape.material(flank),
@@ -132,7 +134,8 @@ impl Planner<'_> {
         if !self.check_fit(&chain, side, (radius, leave), origin) {
             return None;
         }
-        let contact = self.parallel(&chain, side, radius, origin)?;
+        // A negative allowance is a cut into the drawn part that is asked for.
+        let contact = self.parallel(&chain, side, radius + leave.min(0.0), origin)?;
         let cut =
             if leave > 0.0 { self.parallel(&chain, side, radius + leave, origin)? } else { contact.clone() };
         let part = side.opposite();

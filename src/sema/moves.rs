@@ -23,6 +23,7 @@ impl Analyser<'_> {
     pub(super) fn from(&mut self, m: &Matched) {
         let Some(p) = Self::target(m) else { return };
         self.state.position = Some(p);
+        self.state.at_from = true;
         let p = self.transformed(p);
         self.step(StepKind::From(p));
     }
@@ -101,6 +102,7 @@ impl Analyser<'_> {
             self.needs_feed("a move at feed", at);
         }
         self.state.position = Some(p);
+        self.state.at_from = false;
         let to = self.transformed(p);
         self.step(StepKind::Goto { to, rapid });
     }
@@ -142,8 +144,9 @@ impl Analyser<'_> {
                 format!("{what} cuts, and the spindle does not run"),
             ),
             Setting::Set(Spindle::Off, off) => {
+                let by_change = matches!(self.state.tool, Setting::Set(_, change) if change == off);
                 Diagnostic::new(&planning::SPINDLE_OFF, at, format!("{what} cuts, and the spindle is off"))
-                    .label(off, "switched off here")
+                    .label(off, if by_change { "the tool change stops it" } else { "switched off here" })
             }
             _ => return,
         };

@@ -145,6 +145,7 @@ impl Analyser<'_> {
     /// After an operation the cutter is somewhere above the part.
     fn moved(&mut self) {
         self.state.position = None;
+        self.state.at_from = false;
         self.state.rapid = false;
     }
 

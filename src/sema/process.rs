@@ -62,6 +62,8 @@ pub(super) struct State {
     pub rapid: bool,
     /// The cutter's position, mm, once it is known.
     pub position: Option<[f64; 3]>,
+    /// `FROM` gave the position, and nothing has moved since.
+    pub at_from: bool,
     /// A statement that failed may have moved the cutter.
     pub lost: bool,
     /// `TRACUT`, and where it was given.
@@ -93,6 +95,7 @@ impl Default for State {
             clearance: DEFAULT_CLEARANCE,
             rapid: false,
             position: None,
+            at_from: false,
             lost: false,
             transform: None,
             pending_number: None,
@@ -220,6 +223,13 @@ impl Analyser<'_> {
 
     pub(super) fn load_tool(&mut self, tool: Handle<Tool>, span: Span) {
         self.state.tool = Setting::Set(tool, span);
+        if matches!(self.state.spindle, Setting::Set(..)) {
+            // A tool change stops the spindle, and moves the machine to where it changes.
+            self.state.spindle = Setting::Set(Spindle::Off, span);
+        }
+        if !self.state.at_from {
+            self.state.position = None;
+        }
         self.step(StepKind::LoadTool(tool));
     }
 

@@ -93,6 +93,16 @@ impl Finding {
     pub(super) fn line(&self) -> u32 {
         self.line
     }
+    /// The same, put down to the `INSERT` block with this index and line.
+    pub(super) fn due_to_insert(&self, (block, line): (usize, u32)) -> Self {
+        let text = Text::default().words("after this block the control does not do what the program says");
+        let mut said = Text::default().words(format!("line {}: ", self.line));
+        said.0.extend(self.text.0.iter().cloned());
+        let code = &crate::diag::codes::planning::INSERT_SPOILS;
+        Finding::new(code, line, Some(block), text)
+            .note(said)
+            .note(Text::default().words("without the inserted blocks the program is proven"))
+    }
 }
 
 /// Complaints of the control, and what the program leaves to its settings.

@@ -10,7 +10,7 @@ use super::path::Primitive;
 use super::rail::Rail;
 use super::{ACCURACY, Case, Placed};
 use crate::cl::{Guard, Operation};
-use crate::diag::codes::verification as codes;
+use crate::diag::codes::{planning, verification as codes};
 use crate::geom::curve::{CurveRef, PlanarCurve};
 
 /// The rails of all exact curves of a program, each made once. A curve is known by its address.
@@ -64,8 +64,12 @@ impl<'a, 'r> Guards<'a, 'r> {
         let Some(operation) = operation else { return Vec::new() };
         let guard = &operation.guard;
         let (a, b) = placed.cut.z;
-        if !placed.cut.known[2] || a.min(b) >= guard.top - ACCURACY {
+        let lowest = if placed.cut.known[2] { a.min(b) } else { b };
+        if lowest >= guard.top - ACCURACY {
             return Vec::new();
+        }
+        if !placed.cut.known[2] {
+            return self.dive(placed).into_iter().collect();
         }
         let primitives = Primitive::of(&placed.cut.path);
         let mut found: Vec<Finding> = self.walls(operation, placed, &primitives).into_iter().collect();
@@ -73,6 +77,17 @@ impl<'a, 'r> Guards<'a, 'r> {
             found.extend(self.rapid(guard, placed, &primitives));
         }
         found
+    }
+
+    /// A rapid from an unknown height down to below the part's top: nobody knows what is on the way.
+    fn dive(&self, placed: &Placed<'_>) -> Option<Finding> {
+        placed.cut.rapid.then(|| {
+            let text = Text::default()
+                .words("a rapid goes down to Z ")
+                .length(placed.cut.z.1)
+                .words(", below the part's top, from a place that is not known");
+            self.blocked(placed, text)
+        })
     }
 
     /// No move below the part's top is deeper in a wall than the operation may cut.
@@ -95,7 +110,8 @@ impl<'a, 'r> Guards<'a, 'r> {
             .point(deepest.at.x, deepest.at.y)
             .words(format!("; {} may go ", operation.name))
             .length(operation.band.into);
-        Some(Finding::new(&codes::GOUGE, placed.line, placed.block, text))
+        let code = if self.case.is_written(placed.block) { &planning::MOVE_CUTS_PART } else { &codes::GOUGE };
+        Some(Finding::new(code, placed.line, placed.block, text))
     }
 
     /// Below the part's top a rapid may go straight up, straight down where the cutter has been as deep before, or
@@ -111,7 +127,7 @@ impl<'a, 'r> Guards<'a, 'r> {
         }
         let text = Text::default();
         let Some(blank) = guard.blank_radius else {
-            return Some(Self::blocked(
+            return Some(self.blocked(
                 placed,
                 text.words(
                     "a rapid below the part's top, and no round blank is declared that it could be clear of",
@@ -128,12 +144,18 @@ impl<'a, 'r> Guards<'a, 'r> {
                 .length(nearest)
                 .words(" from the axis of the blank; blank and cutter reach to ")
                 .length(clear);
-            Self::blocked(placed, text)
+            self.blocked(placed, text)
         })
     }
 
-    fn blocked(placed: &Placed<'_>, text: Text) -> Finding {
-        Finding::new(&codes::RAPID_IN_STOCK, placed.line, placed.block, text)
+    /// A rapid that the program itself asks for is the program's mistake.
+    fn blocked(&self, placed: &Placed<'_>, text: Text) -> Finding {
+        let code = if self.case.is_written(placed.block) {
+            &planning::RAPID_THROUGH_STOCK
+        } else {
+            &codes::RAPID_IN_STOCK
+        };
+        Finding::new(code, placed.line, placed.block, text)
     }
 
     /// Whether the cutter stood at this place of the plane, as deep or deeper, before this line.

@@ -20,10 +20,12 @@
 
 use rayon::prelude::*;
 
+use crate::arena::Handle;
 use crate::cl::Cl;
 use crate::diag::Sink;
+use crate::ir::Origin;
 use crate::readback::{self, EventKind, MachineSetup, Rotary, Trace, TraceMove};
-use crate::target::TargetProgram;
+use crate::target::{BlockKind, TargetProgram};
 
 mod certificate;
 mod clearance;
@@ -105,9 +107,19 @@ struct Case<'a> {
     orders: &'a Orders,
     needs: readback::Needs,
     moves: &'a [Placed<'a>],
+    /// Statements that are moves themselves (`GOTO`), in order.
+    written: &'a [Handle<Origin>],
 }
 
 impl Case<'_> {
+    /// Whether the block is a move that the program asks for point by point.
+    fn is_written(&self, block: Option<usize>) -> bool {
+        let block = block.and_then(|b| self.target.blocks.get(b));
+        block.is_some_and(|b| {
+            matches!(b.kind, BlockKind::Motion(_)) && self.written.binary_search(&b.origin).is_ok()
+        })
+    }
+
     fn context(&self, block: Option<usize>) -> Context {
         block.and_then(|b| self.contexts.get(b).copied()).unwrap_or(Context { operation: None, tool: None })
     }
@@ -121,28 +133,103 @@ pub fn prove(
     control: &str,
     sink: &mut Sink,
 ) -> Option<Proven> {
-    let setup = setup(target);
-    let (trace, needs) =
-        match (readback::run(emitted.text.as_bytes(), control, &setup), readback::needs(control)) {
-            (Ok(trace), Some(needs)) => (trace, needs),
-            (Err(unknown), _) => {
-                finding::unknown_control(&unknown.to_string(), sink);
-                return None;
-            }
-            (Ok(_), None) => return None,
-        };
     let lines = Lines::new(&emitted.lines);
-    let moves = placed(&trace, &lines);
-    let contexts = plan::contexts(target);
-    let orders = Orders::new(cl);
-    let case = Case { cl, target, contexts: &contexts, orders: &orders, needs, moves: &moves };
-    let (findings, operations) = check(&case, &trace, &lines, &emitted.lines);
-    let certificate = issue::certificate(&case, &trace, &emitted, control, operations);
+    let plan = Plan {
+        contexts: plan::contexts(target),
+        orders: Orders::new(cl),
+        written: plan::written(cl),
+        lines: &lines,
+    };
+    let judged = match judge(cl, target, &emitted, control, &plan) {
+        Ok(judged) => judged,
+        Err(unknown) => {
+            finding::unknown_control(&unknown.to_string(), sink);
+            return None;
+        }
+    };
     let mut reporter = Reporter::new(cl, target, sink);
-    for finding in findings {
+    for finding in blame(cl, target, &emitted, control, (&plan, judged.findings)) {
         reporter.report(&finding);
     }
-    reporter.finish().then_some(Proven { text: emitted.text, certificate })
+    reporter.finish().then_some(Proven { text: emitted.text, certificate: judged.certificate })
+}
+
+/// What was asked, which does not depend on the text.
+struct Plan<'l> {
+    contexts: Vec<Context>,
+    orders: Orders,
+    written: Vec<Handle<Origin>>,
+    lines: &'l Lines,
+}
+
+/// What a text does, against what was asked.
+struct Judged {
+    findings: Vec<Finding>,
+    certificate: Certificate,
+}
+
+fn judge(
+    cl: &Cl,
+    target: &TargetProgram,
+    emitted: &Emitted,
+    control: &str,
+    plan: &Plan<'_>,
+) -> Result<Judged, readback::UnknownControl> {
+    let setup = setup(target);
+    let needs = readback::needs(control).ok_or_else(|| readback::UnknownControl(control.to_owned()))?;
+    let trace = readback::run(emitted.text.as_bytes(), control, &setup)?;
+    let moves = placed(&trace, plan.lines);
+    let case = Case {
+        cl,
+        target,
+        contexts: &plan.contexts,
+        orders: &plan.orders,
+        needs,
+        moves: &moves,
+        written: &plan.written,
+    };
+    let (findings, operations) = check(&case, &trace, plan.lines, &emitted.lines);
+    let certificate = issue::certificate(&case, &trace, emitted, control, operations);
+    Ok(Judged { findings, certificate })
+}
+
+/// Findings that are not there without the blocks that `INSERT` wrote are these blocks' doing: one finding says so, at
+/// the last of them before the trouble.
+fn blame(
+    cl: &Cl,
+    target: &TargetProgram,
+    emitted: &Emitted,
+    control: &str,
+    (plan, findings): (&Plan<'_>, Vec<Finding>),
+) -> Vec<Finding> {
+    let Some(first) = findings.first() else { return findings };
+    let Some((text, culprit)) = without_inserts(target, emitted, first.line()) else { return findings };
+    let plain = Emitted { text, lines: emitted.lines.clone() };
+    match judge(cl, target, &plain, control, plan) {
+        Ok(judged) if judged.findings.is_empty() => vec![first.due_to_insert(culprit)],
+        _ => findings,
+    }
+}
+
+/// The text with the lines of `INSERT` blocks empty, and the last such block that does not come after `line`, with its
+/// line; nothing when there is none.
+fn without_inserts(target: &TargetProgram, emitted: &Emitted, line: u32) -> Option<(String, (usize, u32))> {
+    let blocks = target.blocks.iter().zip(&emitted.lines).enumerate();
+    let inserts: Vec<(usize, (u32, u32))> = blocks
+        .filter(|(_, (block, (from, to)))| matches!(block.kind, BlockKind::Insert(_)) && to > from)
+        .map(|(i, (_, lines))| (i, *lines))
+        .collect();
+    // A finding without a line comes from what is missing: any of them may be the reason.
+    let before = |(_, (from, _)): &&(usize, (u32, u32))| line == 0 || *from <= line;
+    let (block, (from, _)) = *inserts.iter().rfind(before)?;
+    let mut rest = inserts.iter().map(|(_, lines)| *lines).peekable();
+    let mut text = String::with_capacity(emitted.text.len());
+    for (number, content) in (1u32..).zip(emitted.text.split_inclusive('\n')) {
+        while rest.next_if(|(_, to)| *to <= number).is_some() {}
+        let inserted = rest.peek().is_some_and(|(from, _)| *from <= number);
+        text.push_str(if inserted { "\n" } else { content });
+    }
+    Some((text, (block, from)))
 }
 
 /// The machine as the lowered program declares it.

@@ -4,9 +4,10 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use crate::arena::Handle;
 use crate::cl::{Cl, RecordKind};
 use crate::geom::curve::CurveRef;
-use crate::ir::{Feed, Spindle};
+use crate::ir::{Feed, Origin, Spindle};
 use crate::target::{BlockKind, TargetProgram};
 
 /// State that the CL data puts in force.
@@ -46,6 +47,36 @@ pub(super) fn contexts(target: &TargetProgram) -> Vec<Context> {
             now
         })
         .collect()
+}
+
+/// Statements that are moves themselves and no part of an operation, in order.
+pub(super) fn written(cl: &Cl) -> Vec<Handle<Origin>> {
+    let mut inside = false;
+    let (mut written, mut operations) = (Vec::new(), Vec::new());
+    for record in &cl.records {
+        match record.kind {
+            RecordKind::BeginOperation(_) => inside = true,
+            RecordKind::EndOperation(_) => inside = false,
+            RecordKind::From(_)
+            | RecordKind::Rapid(_)
+            | RecordKind::Linear(_)
+            | RecordKind::Circle(_)
+            | RecordKind::Hole(_)
+                if !inside =>
+            {
+                written.push(record.origin);
+            }
+            _ => {}
+        }
+        if inside && operations.last() != Some(&record.origin) {
+            operations.push(record.origin);
+        }
+    }
+    written.sort_unstable();
+    written.dedup();
+    operations.sort_unstable();
+    written.retain(|origin| operations.binary_search(origin).is_err());
+    written
 }
 
 /// The block of every line: lines are given block by block, in order.

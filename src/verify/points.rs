@@ -72,12 +72,14 @@ fn extent(path: &TracePath) -> (Range, Range) {
 pub(super) fn block_ends(case: &Case<'_>, lines: &[(u32, u32)]) -> Vec<Finding> {
     let mut findings = still(case, lines);
     let turns = turns(case);
+    let set = axes_set(case);
     for (i, placed) in case.moves.iter().enumerate() {
         let last_of_block = case.moves.get(i + 1).is_none_or(|next| next.block != placed.block);
         let text = match placed.block.and_then(|b| case.target.blocks.get(b)).map(|b| &b.kind) {
             Some(BlockKind::Motion(motion)) if last_of_block => {
                 let turn = placed.block.and_then(|b| turns.get(b)).copied().flatten();
-                wrong_end(case, motion, placed).or_else(|| wrong_turn(turn, placed))
+                let set = placed.block.and_then(|b| set.get(b)).copied().unwrap_or(0);
+                wrong_end(case, (motion, set), placed).or_else(|| wrong_turn(turn, placed))
             }
             Some(BlockKind::Motion(_)) => None,
             Some(BlockKind::Insert(_)) => None,
@@ -123,7 +125,23 @@ fn still(case: &Case<'_>, lines: &[(u32, u32)]) -> Vec<Finding> {
         .collect()
 }
 
-fn wrong_end(case: &Case<'_>, motion: &Motion, placed: &Placed<'_>) -> Option<Text> {
+/// The axes that have been moved up to every block since the last tool change (or the start): only their values mean
+/// something, as bits of [`crate::target::axes`].
+fn axes_set(case: &Case<'_>) -> Vec<u8> {
+    let mut set = 0;
+    let after = |block: &crate::target::Block| {
+        match &block.kind {
+            BlockKind::ToolChange(_) => set = 0,
+            BlockKind::Motion(Motion::Rapid { axes, .. }) => set |= axes,
+            BlockKind::Motion(_) | BlockKind::Hole(_) => set = u8::MAX,
+            _ => {}
+        }
+        set
+    };
+    case.target.blocks.iter().map(after).collect()
+}
+
+fn wrong_end(case: &Case<'_>, (motion, set): (&Motion, u8), placed: &Placed<'_>) -> Option<Text> {
     let (to, rapid) = match motion {
         Motion::Rapid { to, .. } => (*to, true),
         Motion::Line { to, .. } | Motion::Arc { to, .. } => (*to, false),
@@ -144,8 +162,7 @@ fn wrong_end(case: &Case<'_>, motion: &Motion, placed: &Placed<'_>) -> Option<Te
     if let Some(text) = wrong_arc(case, motion, placed) {
         return Some(text);
     }
-    let moved = if let Motion::Rapid { axes, .. } = motion { *axes } else { 0 };
-    let meant = |axis: usize| placed.cut.known[axis] || moved & (1 << axis) != 0;
+    let meant = |axis: usize| set & (1 << axis) != 0;
     // A table that is not known turns X and Y of the part.
     let plane = meant(0) && meant(1);
     let off = got - wanted;
@@ -245,7 +262,7 @@ pub(super) fn cl_points(case: &Case<'_>) -> Vec<Finding> {
     let mut findings = Vec::new();
     for record in &case.cl.records {
         let point = match record.kind {
-            RecordKind::Rapid(p) | RecordKind::Linear(p) => p,
+            RecordKind::From(p) | RecordKind::Rapid(p) | RecordKind::Linear(p) => p,
             RecordKind::Circle(ref circle) => circle.to,
             RecordKind::BeginCycle(ref cycle) => {
                 depth = cycle.depth;

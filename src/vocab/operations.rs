@@ -87,7 +87,12 @@ const fn motion(
 
 /// Point-to-point motion.
 pub const MOTION: &[Statement] = &[
-    motion("FROM", "where the cutter is at the start; no move", "FROM/ 0, 0, 50", AT_POINT),
+    motion(
+        "FROM",
+        "where the cutter is: it goes there at rapid, unless it is there",
+        "FROM/ 0, 0, 50",
+        AT_POINT,
+    ),
     motion("GOTO", "straight to a point", "GOTO/ 10, 20, 5", TO_POINT),
     motion("GODLTA", "straight by increments", "GODLTA/ 0, 0, -5", BY_DELTA),
     motion("RAPID", "the next move is at rapid", "RAPID", &[]),

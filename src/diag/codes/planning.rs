@@ -79,6 +79,34 @@ pub const NO_ROUGHING_PLAN: Code = Code {
     page: include_str!("../../../docs/diagnostics/E0511.md"),
 };
 
+/// a cut from an unknown place.
+pub const NO_START: Code = Code {
+    id: "E0512",
+    title: "a cut from an unknown place",
+    page: include_str!("../../../docs/diagnostics/E0512.md"),
+};
+
+/// a rapid move goes through the stock.
+pub const RAPID_THROUGH_STOCK: Code = Code {
+    id: "E0513",
+    title: "a rapid move goes through the stock",
+    page: include_str!("../../../docs/diagnostics/E0513.md"),
+};
+
+/// a move cuts into the finished part.
+pub const MOVE_CUTS_PART: Code = Code {
+    id: "E0514",
+    title: "a move cuts into the finished part",
+    page: include_str!("../../../docs/diagnostics/E0514.md"),
+};
+
+/// an inserted block spoils the program.
+pub const INSERT_SPOILS: Code = Code {
+    id: "E0515",
+    title: "an inserted block spoils the program",
+    page: include_str!("../../../docs/diagnostics/E0515.md"),
+};
+
 /// roughing takes this path and time.
 pub const ROUGHING_FIGURES: Code = Code {
     id: "N0520",
@@ -127,6 +155,10 @@ pub const ALL: &[&Code] = &[
     &STOCK_NOT_ROUND,
     &EDGES_DO_NOT_JOIN,
     &NO_ROUGHING_PLAN,
+    &NO_START,
+    &RAPID_THROUGH_STOCK,
+    &MOVE_CUTS_PART,
+    &INSERT_SPOILS,
     &ROUGHING_FIGURES,
     &ROUNDED_END,
     &NO_ROOM_FOR_LEAD,
