@@ -202,8 +202,11 @@ const COOLNT: &[Form] = &[form(
     &[],
 )];
 
+/// Wider bands than this, mm, are a mistake of the unit.
+const TOLERANCE: Kind = Kind::Number(Dim::LENGTH, Range::Within(0.0, 10.0));
+
 const fn four(help: &'static str) -> Item {
-    Item::Repeat(slot("tolerance", NOT_NEGATIVE, help), 1, 4)
+    Item::Repeat(slot("tolerance", TOLERANCE, help), 1, 4)
 }
 
 const INTOL: &[Form] =

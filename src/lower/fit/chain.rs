@@ -18,6 +18,9 @@ const RETRIES: [f64; 4] = [1.0, 0.998, 0.99, 0.96];
 /// Chains of no more links than this that miss the bound are searched for once more, widely: there the grid decides.
 const FEW: usize = 16;
 
+/// Chains of more links are not searched for widely: their grid is fine enough for a narrow search.
+const MANY: u32 = 3_000;
+
 /// Another start is worth trying when no more than this part of a link is missing.
 const WORTH: f64 = 0.25;
 
@@ -43,7 +46,7 @@ impl Chain {
 pub fn fit(tube: &Tube, plane: Plane, start: Option<f64>) -> Result<Fit, FitError> {
     let stations = Stations::new(tube, plane, None)?;
     let bound = bound::links(&stations, tube);
-    let mut solver = Solver { tube, stations: &stations, search: Search::default(), bound };
+    let mut solver = Solver { tube, stations: &stations, search: Search::new(bound), bound };
     let from = solver.start_station(start);
     let chain = solver.best(from)?;
     let link = |v: &Vertex| match plane {
@@ -87,7 +90,9 @@ impl Solver<'_> {
     fn best(&mut self, from: usize) -> Result<Chain, FitError> {
         let (effort, rounds) = effort(f64::from(self.bound));
         let mut best = None;
-        for scale in RETRIES {
+        let retries = if self.bound < MANY { RETRIES.len() } else { 1 };
+        for scale in &RETRIES[..retries] {
+            let scale = *scale;
             best = self.attempt(scale, from, effort).ok();
             if best.is_some() {
                 break;
@@ -111,7 +116,9 @@ impl Solver<'_> {
 
     /// A wide search where the narrow one died; then the question how wide the band should be.
     fn harder(&mut self, from: usize) -> Result<Chain, FitError> {
-        let wide = Effort { beam: 32, tries: 12, all: true };
+        let few = self.bound < MANY;
+        let wide =
+            if few { Effort { beam: 32, tries: 12, all: true } } else { effort(f64::from(MANY) / 2.0).0 };
         let stuck = match self.attempt(1.0, from, wide) {
             Ok(chain) => return Ok(chain),
             Err(stuck) => stuck,
@@ -120,15 +127,24 @@ impl Solver<'_> {
         let at = self.stations.stations[stuck.gate % n].frenet.p;
         let have = self.tube.left + self.tube.right;
         let unit = match self.stations.plane {
-            Plane::Xy { step } | Plane::Polar { step, .. } => step,
+            Plane::Xy { step } => step,
+            Plane::Polar { step, angle_step } => step.max(at.coords.norm() * angle_step * math::DEG),
         };
+        if !few {
+            // to search again for the width would take as long as the fit itself, many times
+            return Err(FitError::BandTooNarrow { needed: 1.5 * have.max(unit), have, at });
+        }
         let mut needed = have.max(unit / 16.0);
         for _ in 0..24 {
             needed *= 1.5;
             let (left, right) = self.widened(needed - have);
             let tube = Tube { curve: self.tube.curve, left, right };
-            let mut wider =
-                Solver { tube: &tube, stations: self.stations, search: Search::default(), bound: self.bound };
+            let mut wider = Solver {
+                tube: &tube,
+                stations: self.stations,
+                search: Search::new(self.bound),
+                bound: self.bound,
+            };
             if wider.attempt(1.0, from, Effort { beam: 4, tries: 6, all: false }).is_ok() {
                 break;
             }

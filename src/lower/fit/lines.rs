@@ -1,5 +1,6 @@
 //! Fewest straight lines (LINEAR).
 
+use super::guard::guarded;
 use super::tube::Plane;
 use super::{Fit, FitError, Grid, Tube, chain};
 
@@ -10,5 +11,6 @@ use super::{Fit, FitError, Grid, Tube, chain};
 /// # Errors
 /// See [`FitError`].
 pub fn lines(tube: &Tube, grid: &Grid, start: Option<f64>) -> Result<Fit, FitError> {
-    chain::fit(tube, Plane::xy(grid), start)
+    let guarded = guarded(tube, grid)?;
+    chain::fit(&guarded.tube, Plane::xy(grid), start).map(|fit| guarded.answer(fit))
 }

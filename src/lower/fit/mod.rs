@@ -16,6 +16,7 @@ use core::fmt;
 pub mod arcs;
 pub mod bound;
 mod chain;
+mod guard;
 mod lines;
 pub mod measure;
 pub mod nurbs;
@@ -122,6 +123,15 @@ pub enum FitError {
         /// Where it fails, mm.
         at: Point2,
     },
+    /// Arcs on the grid stay in the band, but not tangent-continuous with one radius each.
+    GridTooCoarse {
+        /// Largest tangent error at a joint, rad.
+        kink: f64,
+        /// Largest difference of the radii at an arc's ends, mm.
+        mismatch: f64,
+        /// Where the path is worst, mm.
+        at: Point2,
+    },
     /// A curve in polar coordinates must be seen from the origin in one sense of rotation.
     NotStarShaped {
         /// A point where the curve runs radially, backwards or through the origin, mm.
@@ -146,6 +156,13 @@ impl fmt::Display for FitError {
                 f,
                 "the band is {have:.6} mm wide, but the decimals of the control need about {needed:.6} mm near ({:.4}, {:.4}) mm",
                 at.x, at.y
+            ),
+            FitError::GridTooCoarse { kink, mismatch, at } => write!(
+                f,
+                "arcs with the decimals of the control miss the tangent by {:.3} deg and a radius by {mismatch:.6} mm near ({:.4}, {:.4}) mm",
+                kink / crate::math::DEG,
+                at.x,
+                at.y
             ),
             FitError::NotStarShaped { at } => write!(
                 f,

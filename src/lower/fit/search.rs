@@ -68,11 +68,19 @@ pub enum Goal {
 pub struct Search {
     stab: Stab,
     found: Vec<(f64, [i64; 2])>,
+    /// Layers after which a search has lost its way.
+    most: usize,
     /// The aim from the best vertex of the layer; vertices whose view stops at the same gate have it too, nearly.
     aim: Option<(Exit, usize, View)>,
 }
 
 impl Search {
+    /// A search in a tube where about `links` links are needed.
+    #[must_use]
+    pub fn new(links: u32) -> Search {
+        Search { most: 2 * links as usize + 32, ..Search::default() }
+    }
+
     /// Runs from the roots to the goal.
     ///
     /// # Errors
@@ -87,7 +95,7 @@ impl Search {
         let mut nodes: Vec<Node> = roots.iter().map(|v| node(course, *v, usize::MAX)).collect();
         let mut layer: Vec<usize> = (0..nodes.len()).collect();
         let (mut best, mut idle) = (-1.0_f64, 0);
-        loop {
+        for _ in 0..self.most {
             layer.sort_by(|a, b| nodes[*b].view.reach.total_cmp(&nodes[*a].view.reach).then(a.cmp(b)));
             layer.truncate(effort.beam);
             let Some(first) = layer.first().map(|i| &nodes[*i]) else {
@@ -103,6 +111,7 @@ impl Search {
             }
             layer = self.expand(course, &mut nodes, &layer, effort);
         }
+        Err(Stuck { gate: best.max(0.0) as usize })
     }
 
     /// The next layer.

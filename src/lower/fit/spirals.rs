@@ -1,5 +1,6 @@
 //! Fewest Archimedean spirals about the origin (RTHETA).
 
+use super::guard::guarded;
 use super::tube::Plane;
 use super::{Fit, FitError, Grid, Tube, chain};
 
@@ -10,5 +11,6 @@ use super::{Fit, FitError, Grid, Tube, chain};
 /// # Errors
 /// [`FitError::NotStarShaped`] where the curve is not seen from the origin in one sense; see [`FitError`].
 pub fn spirals(tube: &Tube, grid: &Grid, start: Option<f64>) -> Result<Fit, FitError> {
-    chain::fit(tube, Plane::polar(grid), start)
+    let guarded = guarded(tube, grid)?;
+    chain::fit(&guarded.tube, Plane::polar(grid), start).map(|fit| guarded.answer(fit))
 }

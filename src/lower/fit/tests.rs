@@ -3,6 +3,8 @@
 //! The checker here measures by brute force (dense points of path and curve, nearest distances) and shares nothing
 //! with the certificate of the fits.
 
+mod robust;
+
 use std::time::Instant;
 
 use proptest::prelude::*;

@@ -23,7 +23,9 @@ const CENTRE: f64 = 0.9;
 /// Smallest sampling error that is resolved, mm.
 const FINEST: f64 = 1e-9;
 /// More stations than this are not a path but a mistake in the tolerance.
-const MOST_STATIONS: usize = 40_000_000;
+const MOST_STATIONS: usize = 6_000_000;
+/// More links than this, too.
+const MOST_LINKS: f64 = 400_000.0;
 
 /// The plane in which a primitive is a straight line.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -227,6 +229,13 @@ impl Stations {
     /// [`FitError::BandTooNarrow`] when the band is beyond what double precision can follow.
     pub fn new(tube: &Tube, plane: Plane, error: Option<f64>) -> Result<Stations, FitError> {
         let estimate = estimate(tube, plane)?;
+        let have = tube.left + tube.right;
+        if estimate > MOST_LINKS {
+            let share = estimate / MOST_LINKS;
+            let needed = have.max(FINEST) * share * share;
+            let at = checked(tube.curve, 0, tube.curve.domain().0)?.p;
+            return Err(FitError::BandTooNarrow { needed, have, at });
+        }
         let error = error.unwrap_or_else(|| error_for(estimate));
         let sagitta = (error * (tube.left + tube.right)).max(FINEST);
         let mut sampler = Sampler {

@@ -301,10 +301,17 @@ impl Problem {
         self.blocks * BLOCK
     }
 
+    /// The rows without their zeros; `None` when one of them is not finite.
+    fn compact(&self) -> Option<Vec<Compact>> {
+        let finite =
+            |r: &Row| r.value.is_finite() && r.coefficients.iter().map(|c| c * 0.0).sum::<f64>() == 0.0;
+        self.rows.iter().all(finite).then(|| self.rows.iter().map(Compact::new).collect())
+    }
+
     /// Damped least squares: the x that makes the rows' values small, `damping` relative to the largest squared
     /// coefficient; with little damping the x of least norm for which they become zero.
     pub fn least_change(&self, damping: f64) -> Option<Vec<f64>> {
-        let rows: Vec<Compact> = self.rows.iter().map(Compact::new).collect();
+        let rows = self.compact()?;
         let mut matrix = Arrow::new(self, &rows);
         let mut rhs = vec![0.0; self.variables() + 1];
         let mut largest = 0.0_f64;
@@ -335,7 +342,7 @@ impl Problem {
             .fold(0.0_f64, |m, r| m.max((r.value.abs() - r.limit) / r.slope));
         let mut x = vec![0.0; self.variables() + 1];
         x[self.variables()] = 1.1 * worst + 1e-12;
-        let rows: Vec<Compact> = self.rows.iter().map(Compact::new).collect();
+        let rows = self.compact()?;
         let mut matrix = Arrow::new(self, &rows);
         let mut state =
             Interior { problem: self, rows, sides: vec![[Side::default(); 2]; self.rows.len()], x };

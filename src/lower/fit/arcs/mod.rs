@@ -27,6 +27,7 @@ use round::{Limits, Rounded};
 use search::Wish;
 use stretch::Stretch;
 
+use super::guard::guarded;
 use super::{Fit, FitError, Grid, Primitive, Tube};
 use crate::geom::curve::Shape;
 use crate::geom::{Point2, left};
@@ -47,6 +48,11 @@ const SHARES: [f64; 4] = [1.0, 0.9, 0.75, 0.5];
 /// # Errors
 /// [`FitError::BandTooNarrow`] when no chain on the grid keeps the band, [`FitError::BadCurve`] for cusps.
 pub fn arcs(tube: &Tube<'_>, grid: &Grid, exact_spans: bool, start: Option<f64>) -> Result<Fit, FitError> {
+    let guarded = guarded(tube, grid)?;
+    chained(&guarded.tube, grid, exact_spans, start).map(|fit| guarded.answer(fit))
+}
+
+fn chained(tube: &Tube<'_>, grid: &Grid, exact_spans: bool, start: Option<f64>) -> Result<Fit, FitError> {
     let half = 0.5 * (tube.left + tube.right);
     let (u, _) = tube.curve.domain();
     let origin = tube.curve.at(u).p;
@@ -186,6 +192,9 @@ fn fit_stretch(
 fn too_narrow(tube: &Tube<'_>, last: Option<&Rounded>, stretch: &Stretch<'_>) -> FitError {
     let have = tube.left + tube.right;
     match last {
+        Some(r) if r.extremes.high <= tube.left && r.extremes.low >= -tube.right => {
+            FitError::GridTooCoarse { kink: r.kink, mismatch: r.mismatch, at: r.worst_at }
+        }
         Some(r) => {
             let needed = r.extremes.high.max(tube.left) - r.extremes.low.min(-tube.right);
             FitError::BandTooNarrow { needed, have, at: r.worst_at }

@@ -32,6 +32,8 @@ const DAMPING: f64 = 1e-9;
 const RESTORATIONS: usize = 3;
 /// Least room to either side of a bounded variable, in units of its scale.
 const INSIDE: f64 = 1e-4;
+/// Deviations beyond this many half widths of the band, or none at all, move a chain no farther.
+const WORST: f64 = 1e3;
 /// Trust region below which nothing can be gained.
 const SMALLEST_TRUST: f64 = 1e-3;
 
@@ -47,7 +49,7 @@ pub(super) fn improve(mut chain: Chain, stretch: &Stretch<'_>, goal: &Goal, stop
         if worst <= stop.target || trust < SMALLEST_TRUST {
             break;
         }
-        let scales = scales(&chain, stretch, trust, worst);
+        let scales = scales(&chain, stretch, trust, worst.min(WORST * goal.band.half));
         let mut problem = Problem { blocks: chain.joints.len(), cyclic: chain.closed, rows: Vec::new() };
         rows(&chain, stretch, goal, &mut problem.rows);
         scale_rows(&mut problem.rows, &scales);

@@ -175,8 +175,9 @@ fn exchanged(chain: &Chain, stretch: &Stretch<'_>, goal: &Goal) -> Option<Chain>
     let n = chain.len();
     let measures = measures(chain, stretch, goal);
     let (first, count) = active_run(chain, &measures);
-    let apart = |i: usize| (0..WINDOW).all(|j| ((i + j) % n + n - first) % n >= count);
-    let from = slack(chain, &measures, WINDOW.min(n)).into_iter().find(|&i| apart(i))?;
+    let width = WINDOW.min(n);
+    let apart = |i: usize| (0..width).all(|j| ((i + j) % n + n - first) % n >= count);
+    let from = slack(chain, &measures, width).into_iter().find(|&i| width > 1 && apart(i))?;
     let grown = respread(chain, stretch, first, count, count + 1);
     // A closed chain is counted from arc `first` now.
     let moved = match (chain.closed, from > first) {
@@ -184,7 +185,7 @@ fn exchanged(chain: &Chain, stretch: &Stretch<'_>, goal: &Goal) -> Option<Chain>
         (false, true) => from + 1,
         (false, false) => from,
     };
-    Some(respread(&grown, stretch, moved, WINDOW, WINDOW - 1))
+    Some(respread(&grown, stretch, moved, width, width - 1))
 }
 
 /// Improves a chain to the limit, exchanging arcs between places while that helps.

@@ -15,6 +15,7 @@ use spline::{ORDER, Spline, basis, clamped, interval};
 use super::arcs::minimax::{BLOCK, Problem, Row, WIDTH};
 use super::arcs::start::Density;
 use super::arcs::stretch::{Stretch, stretches};
+use super::guard::guarded;
 use super::{Fit, FitError, Grid, Primitive, Tube};
 use crate::geom::{Point2, left};
 use crate::math;
@@ -43,6 +44,14 @@ const MINIMAX_STEPS: usize = 10;
 const DAMPING: f64 = 1e-6;
 /// Turning of one knot interval in the first density, radians.
 const TURN: f64 = 1.2;
+/// Splines that the grid may spoil before it is blamed.
+const REFUSALS: u32 = 6;
+/// More points than this factor of the first guess …
+const GROWTH: usize = 2;
+/// … and these are no use.
+const SPARE: usize = 24;
+/// Widest band that an error asks for, mm.
+const MOST_NEEDED: f64 = 1e6;
 /// Most control points of one curve.
 const MOST_POINTS: usize = 100_000;
 
@@ -53,6 +62,11 @@ const MOST_POINTS: usize = 100_000;
 /// # Errors
 /// [`FitError::BandTooNarrow`] when no spline on the grid keeps the band, [`FitError::BadCurve`] for cusps.
 pub fn nurbs(tube: &Tube<'_>, grid: &Grid, knots: Knots, start: Option<f64>) -> Result<Fit, FitError> {
+    let guarded = guarded(tube, grid)?;
+    splines(&guarded.tube, grid, knots, start).map(|fit| guarded.answer(fit))
+}
+
+fn splines(tube: &Tube<'_>, grid: &Grid, knots: Knots, start: Option<f64>) -> Result<Fit, FitError> {
     let half = 0.5 * (tube.left + tube.right);
     let origin = tube.curve.at(tube.curve.domain().0).p;
     if half.is_nan() || half < 0.25 * grid.step {
@@ -156,15 +170,18 @@ impl Fitter<'_> {
         // What rounding of the control points may take: half a step in each coordinate.
         let limit = (self.half() - 0.71 * self.grid.step).max(0.4 * self.half());
         let mut n = self.count(&shares, limit);
+        let most = (GROWTH * n + SPARE).min(MOST_POINTS);
         let mut best = None;
-        let mut needed = f64::INFINITY;
-        while n <= MOST_POINTS {
+        let (mut needed, mut refused) = (f64::INFINITY, 0);
+        while n <= most && refused < REFUSALS {
             match self.attempt(&shares, n, limit) {
                 Ok(found) => {
                     best = Some(found);
                     break;
                 }
                 Err(worst) => {
+                    // kept the band before rounding: more points would not help the grid
+                    refused += u32::from(worst <= self.half());
                     needed = needed.min(worst);
                     n += 1 + n / 40;
                 }
@@ -180,7 +197,7 @@ impl Fitter<'_> {
             }
         }
         best.ok_or(FitError::BandTooNarrow {
-            needed: 2.0 * needed,
+            needed: (2.0 * needed).clamp(2.0 * self.half() + self.grid.step, MOST_NEEDED),
             have: 2.0 * self.half(),
             at: self.stretch.at(self.from).p,
         })
