@@ -106,12 +106,43 @@ pub enum FileError {
     NotFound,
     /// The path leaves the project's root.
     OutsideRoot,
-    /// The bytes are not UTF-8; the offset of the first bad one.
-    NotUtf8(usize),
+    /// The bytes are not UTF-8; the first bad one.
+    NotUtf8(BadByte),
     /// The file is larger than this many bytes.
     TooLarge(u64),
     /// Anything else, in the system's words.
     Other(String),
+}
+
+/// A byte that is not part of any character.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct BadByte {
+    /// Its offset from 0.
+    pub offset: usize,
+    /// Its line from 1.
+    pub line: usize,
+    /// Its column from 1, in characters.
+    pub column: usize,
+}
+
+impl core::fmt::Display for BadByte {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        write!(f, "line {}, column {} (byte {})", self.line, self.column, self.offset)
+    }
+}
+
+/// The text that the bytes are.
+///
+/// # Errors
+/// [`FileError::NotUtf8`] with the first byte that is not part of a character.
+pub fn decode(bytes: Vec<u8>) -> Result<String, FileError> {
+    String::from_utf8(bytes).map_err(|e| {
+        let offset = e.utf8_error().valid_up_to();
+        let before = String::from_utf8_lossy(e.as_bytes().get(..offset).unwrap_or(&[]));
+        let line = before.matches('\n').count() + 1;
+        let column = before.rsplit('\n').next().map_or(0, |l| l.chars().count()) + 1;
+        FileError::NotUtf8(BadByte { offset, line, column })
+    })
 }
 
 /// How the compiler reads files (includes, tables, post files).

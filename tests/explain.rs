@@ -1,5 +1,7 @@
 //! Every diagnostic code has its page, and the examples on the pages do what the pages say.
 
+mod common;
+
 use std::collections::BTreeMap;
 
 use partwright::diag::{Code, Severity, codes};
@@ -136,4 +138,49 @@ fn compile_right(code: &Code, blocks: &[Block]) -> Result<(), String> {
         Some(d) => Err(format!("the right example gives {}: {}", d.code.id, d.message)),
         None => Ok(()),
     }
+}
+
+/// Codes that no program text alone can trigger: what does, and the tests that do.
+const NOT_BY_A_PROGRAM: [(&str, &[&str]); 7] = [
+    (
+        "the command line, or a file that cannot be read or written: tests/cli*.rs",
+        &[
+            "E0901", "E0902", "E0903", "E0904", "E0905", "E0906", "E0907", "E0908", "E0909", "E0910",
+            "E0911", "E0912", "E0913", "E0951", "E0952", "E0953", "E0701",
+        ],
+    ),
+    ("a faulty post: src/post/tests, tests/cli_post.rs", &["E0751", "E0752", "W0753", "E0754"]),
+    (
+        "an emitted text that is not what it should be: src/verify/program_tests.rs",
+        &["E0801", "E0802", "E0803", "E0804", "E0805", "E0806", "E0807", "E0808", "E0809", "E0810", "E0811"],
+    ),
+    (
+        "a target program of a kind that sources do not make yet: src/lower/tests",
+        &["E0606", "E0608", "N0609", "N0610"],
+    ),
+    ("a control character, which these files should not hold: src/syntax/tests.rs", &["E0107"]),
+    ("a motion made by hand: src/diag/cam/tests.rs", &["E0406"]),
+    ("a groove that sema has let through: src/plan/tests.rs", &["E0506"]),
+];
+
+#[test]
+fn every_code_is_triggered_by_a_program() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/errors");
+    let annotated: String =
+        common::find(&folder, "apt").iter().map(|p| std::fs::read_to_string(p).unwrap_or_default()).collect();
+    let on_page = |page: &str| {
+        sections(page).get("Wrong").is_some_and(|wrong| blocks(wrong).iter().any(|b| b.language == "apt"))
+    };
+    let excused = |id: &str| NOT_BY_A_PROGRAM.iter().any(|(_, ids)| ids.contains(&id));
+    let (mut missing, mut needless) = (Vec::new(), Vec::new());
+    for code in codes::all() {
+        let shown = on_page(code.page) || annotated.contains(&format!(" {}", code.id));
+        match (shown, excused(code.id)) {
+            (false, false) => missing.push(code.id),
+            (true, true) => needless.push(code.id),
+            _ => {}
+        }
+    }
+    assert!(missing.is_empty(), "no program triggers {missing:?}");
+    assert!(needless.is_empty(), "a program triggers {needless:?}: take them off the list");
 }

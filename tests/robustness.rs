@@ -94,6 +94,53 @@ fn loops_and_macros_that_never_end_are_stopped() {
     }
 }
 
+#[test]
+fn a_mistake_in_a_loop_is_looked_at_a_few_times_only() {
+    let wrong = "M1 = MOTION/ RISE, 180, 20, MODSINE, RETURN, 180, 20, MODSIN\n";
+    for text in [
+        format!("I = 1\nWHILE/ I > 0\n{wrong}ENDWHILE\nGOTO/ P9\n"),
+        format!("DO/ I = 1, 300000\nDO/ J = 1, 300000\n{wrong}ENDDO\nENDDO\nGOTO/ P9\n"),
+    ] {
+        let start = Instant::now();
+        let build = compile(&text);
+        let codes: Vec<&str> = build.diagnostics.iter().map(|d| d.code.id).collect();
+        assert_eq!(codes, ["E0204", "E0203"], "{text}");
+        assert!(start.elapsed() < PATIENCE / 4, "{text} took {:?}", start.elapsed());
+    }
+    let jumping = format!("LOOPST\nA1) N = 1\n{wrong}JUMPTO/ A1\nLOOPND\n");
+    let codes: Vec<String> = compile(&jumping).diagnostics.iter().map(|d| d.code.id.to_owned()).collect();
+    assert_eq!(codes, ["E0204", "E0228"]);
+}
+
+/// The place (line, column) and code of every message.
+fn places(text: &str) -> Vec<(usize, usize, String)> {
+    let build = compile(text);
+    let place = |d: &partwright::diag::Diagnostic| {
+        let primary = d.primary.as_ref().expect("a place");
+        let (line, column) = build.sources.file(primary.span.file).line_column(primary.span.start);
+        (line, column, d.code.id.to_owned())
+    };
+    build.diagnostics.iter().map(place).collect()
+}
+
+#[test]
+fn places_count_characters_whatever_the_file_looks_like() {
+    let wanted = [(2, 12, "E0101".to_owned()), (3, 7, "E0203".to_owned())];
+    let program = |end: &str| format!("UNITS/ MM{end}GOTO/ 1, 2 3{end}GOTO/ P9{end}FINI{end}");
+    assert_eq!(places(&program("\n")), wanted);
+    assert_eq!(places(&program("\r\n")), wanted);
+    assert_eq!(places(&program("\t\r\n")), wanted);
+    assert_eq!(places(&format!("\u{feff}{}", program("\n"))), wanted);
+    assert_eq!(places("GOTO/\t1,\t2\t3\n"), [(1, 12, "E0101".to_owned())]);
+    assert_eq!(
+        places("GOTO/ 1, \0 2, 3\nGOTO/ P9\n"),
+        [(1, 10, "E0107".to_owned()), (2, 7, "E0203".to_owned()),]
+    );
+    let far = format!("GOTO/ 1, 2, 3{}4\n", " ".repeat(5000));
+    assert_eq!(places(&far), [(1, 5014, "E0101".to_owned())]);
+    assert_eq!(places("PARTNO é\nPPRINT Dréhen; x\nINCLUD/ 'é'\n"), [(3, 9, "E0230".to_owned())]);
+}
+
 /// A program that uses every stage.
 const WHOLE: &str = "\
 PARTNO robustness

@@ -1,6 +1,6 @@
 //! Any bytes as a program for every control: no panic, no hang, every event usable.
 //!
-//! `cargo +nightly fuzz run readback -- -max_len=4096 -timeout=10`
+//! How to run it stands in `fuzz/README.md`.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

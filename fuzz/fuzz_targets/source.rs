@@ -1,7 +1,7 @@
 //! Any text through the whole pipeline: no panic, no hang, bounded memory, every message renders, and what
 //! has errors has no output.
 //!
-//! `cargo +nightly fuzz run source -- -max_len=4096 -timeout=10 -rss_limit_mb=1024`
+//! How to run it stands in `fuzz/README.md`.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

@@ -135,6 +135,9 @@ pub struct CommonArgs {
     /// Make a warning code (or `warnings`, all of them) an error.
     #[arg(long, value_name = "CODE")]
     pub deny: Vec<String>,
+    /// Leave out what stands behind column 72 of a line, as on punched cards.
+    #[arg(long)]
+    pub card_columns: bool,
     /// Threads to work with; the result does not depend on it.
     #[arg(short = 'j', long = "jobs", value_name = "N")]
     pub jobs: Option<usize>,

@@ -91,7 +91,7 @@ pub fn driver_options(common: &CommonArgs) -> Result<driver::Options, Diagnostic
     let defines = common.define.iter().map(|d| define(d)).collect::<Result<_, _>>()?;
     let producer = common.producer.as_deref().map(producer).transpose()?;
     let cl = clfile::Options { producer, lenient: common.lenient, defines: Vec::new() };
-    Ok(driver::Options { defines, cl, ..driver::Options::default() })
+    Ok(driver::Options { defines, cl, card_columns: common.card_columns, ..driver::Options::default() })
 }
 
 fn producer(name: &str) -> Result<clfile::Producer, Diagnostic> {

@@ -9,7 +9,7 @@ use std::io::Read;
 use std::path::{Component, Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-use crate::source::{FileError, FileProvider};
+use crate::source::{FileError, FileProvider, decode};
 
 /// The largest file that is read, bytes.
 pub const LARGEST: u64 = 64 * 1024 * 1024;
@@ -95,10 +95,6 @@ fn read_limited(source: impl Read, largest: u64) -> Result<Vec<u8>, FileError> {
 /// Bytes that are not UTF-8 become replacement characters.
 fn decode_anyhow(bytes: Vec<u8>) -> String {
     String::from_utf8(bytes).unwrap_or_else(|e| String::from_utf8_lossy(e.as_bytes()).into_owned())
-}
-
-fn decode(bytes: Vec<u8>) -> Result<String, FileError> {
-    String::from_utf8(bytes).map_err(|e| FileError::NotUtf8(e.utf8_error().valid_up_to()))
 }
 
 fn system(error: &std::io::Error) -> FileError {

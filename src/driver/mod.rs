@@ -34,6 +34,8 @@ pub struct Options {
     pub is_cl: bool,
     /// Stop before lowering: all checks of the program, no output.
     pub check_only: bool,
+    /// What stands behind column 72 of a line is no part of the program (`--card-columns`).
+    pub card_columns: bool,
     /// Keep the syntax tree of the main file.
     pub keep_ast: bool,
 }
@@ -183,11 +185,11 @@ impl Recorder<'_> {
 /// Runs the stages as far as they go.
 fn stages(build: &mut Build, file: FileId, files: &dyn FileProvider, options: &Options, sink: &mut Sink) {
     let text = build.sources.file(file).text.clone();
-    let tree = syntax::parse(file, &text, sink);
+    let tree = syntax::parse_columns(file, &text, options.card_columns, sink);
     if options.keep_ast {
         build.ast = Some(tree.clone());
     }
-    let evaluation = sema::Options { defines: options.defines.clone() };
+    let evaluation = sema::Options { defines: options.defines.clone(), card_columns: options.card_columns };
     build.ir = sema::analyse_tree(tree, &mut build.sources, files, &evaluation, sink);
     back(build, files, options, sink);
 }
@@ -224,7 +226,7 @@ pub fn unreadable(path: &str, error: &FileError) -> Diagnostic {
         }
         FileError::NotUtf8(byte) => Diagnostic::global(
             &codes::NOT_UTF8,
-            format!("{path} is not UTF-8: the byte at offset {byte} is not part of any character"),
+            format!("{path} is not UTF-8: {byte} is not part of any character"),
         )
         .help("save the file as UTF-8"),
         FileError::TooLarge(limit) => {

@@ -238,7 +238,7 @@ fn unreadable(name: &str, error: &FileError, at: Option<Span>) -> Diagnostic {
     let reason = match error {
         FileError::NotFound => "there is no such file".to_owned(),
         FileError::OutsideRoot => "it lies outside the project's root".to_owned(),
-        FileError::NotUtf8(byte) => format!("byte {byte} is not UTF-8"),
+        FileError::NotUtf8(byte) => format!("{byte} is not UTF-8"),
         FileError::TooLarge(limit) => format!("it is larger than {limit} bytes"),
         FileError::Other(text) => text.clone(),
     };

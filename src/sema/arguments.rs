@@ -157,6 +157,12 @@ impl Analyser<'_> {
                     }
                     _ => {
                         self.missing_value(work, last, slot, token);
+                        let later = |t: &Token<'_>| {
+                            option.values.iter().any(|v| matches!(v, Item::Value(s) if t.fits(s.kind)))
+                        };
+                        if token.is_some_and(later) {
+                            continue;
+                        }
                         return i;
                     }
                 },

@@ -31,6 +31,9 @@ impl Analyser<'_> {
             })
             .collect();
         let count = points.len();
+        if !self.charge(count) {
+            return None;
+        }
         let curve: Option<CurveRef> = if m.word("chain").is_some() {
             if count % 3 != 1 {
                 let message = format!("a chain of cubics has 3 m + 1 control points, and these are {count}");
@@ -122,6 +125,9 @@ impl Analyser<'_> {
 
     fn through(&mut self, m: &Matched, name: &str, nodes: &[Node], ends: Ends) -> Option<Value> {
         let points: Vec<Point2> = nodes.iter().map(|n| n.point).collect();
+        if !self.charge(points.len()) {
+            return None;
+        }
         match Spline::new(&points, ends) {
             Ok(spline) => {
                 let curve: CurveRef = Arc::new(spline);

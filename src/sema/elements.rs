@@ -209,6 +209,9 @@ impl Analyser<'_> {
             self.limit(format!("a run of more than {} elements", limits::SUBSCRIPT_RUN));
             return poisoned(declared);
         }
+        if !self.charge(usize::try_from(count).unwrap_or(0)) {
+            return poisoned(declared);
+        }
         let mut elements = Vec::new();
         for subscript in (0..count).map(|i| from + i * step) {
             let key = vec![subscript];

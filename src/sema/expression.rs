@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use crate::diag::codes::semantics as codes;
+use crate::diag::codes::{semantics as codes, syntax};
 use crate::diag::{Diagnostic, did_you_mean};
 use crate::source::Span;
 use crate::syntax::ast::{BinaryOp, Expr, ExprKind, Name, UnaryOp};
@@ -144,9 +144,19 @@ impl Analyser<'_> {
             }
             None => match vocab::find_function(&upper) {
                 Some(function) => self.call_function(function, name, args, span),
+                None if vocab::is_word(&upper) => self.missing_comma(name),
                 None => self.unknown_function(name),
             },
         }
+    }
+
+    /// `CENTER (0, 0)`: a word with its value straight behind it.
+    fn missing_comma(&mut self, name: &Name) -> Value {
+        let at = Span { start: name.span.end, ..name.span };
+        let problem =
+            Diagnostic::new(&syntax::UNEXPECTED, at, format!("expected a comma after {}", name.upper()));
+        self.report(problem.label(name.span, "a word of the language"));
+        Value::Poison
     }
 
     fn unknown_function(&mut self, name: &Name) -> Value {

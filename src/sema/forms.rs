@@ -79,6 +79,8 @@ pub(super) struct Expected {
     pub words: Vec<&'static str>,
     /// Values.
     pub slots: Vec<&'static Slot>,
+    /// Words of options, where the lead may end.
+    pub options: Vec<&'static str>,
 }
 
 impl Expected {
@@ -89,7 +91,11 @@ impl Expected {
             if extent(form, tokens).consumed < at {
                 continue;
             }
-            match item_at(form, tokens, at) {
+            let item = item_at(form, tokens, at);
+            if matches!(item, None | Some(Item::Optional(_))) {
+                expected.options.extend(form.options.iter().flat_map(|o| o.words).map(|c| c.word));
+            }
+            match item {
                 Some(Item::Word(_, choices)) => expected.words.extend(choices.iter().map(|c| c.word)),
                 Some(Item::Value(slot) | Item::Optional(slot) | Item::Repeat(slot, ..)) => {
                     expected.slots.push(slot)

@@ -71,7 +71,7 @@ impl Analyser<'_> {
         }
         let file = self.sources.add(name, text.as_str());
         self.include.done.insert(name.to_owned(), file);
-        let tree = syntax::parse(file, &text, &mut self.syntax);
+        let tree = syntax::parse_columns(file, &text, self.card_columns, &mut self.syntax);
         let code = self.load(tree);
         self.include.open.push((name.to_owned(), Some(at)));
         self.run(&code, 0..code.program.statements.len());
@@ -104,7 +104,9 @@ fn unreadable(path: &str, error: &FileError, at: Span) -> Diagnostic {
             .note("the path counts from the directory of the file that names it"),
         FileError::OutsideRoot => problem(format!("{path} lies outside the project"))
             .note("a program reads nothing above its project's root"),
-        FileError::NotUtf8(byte) => problem(format!("{path} is not UTF-8: byte {byte} begins no character")),
+        FileError::NotUtf8(byte) => {
+            problem(format!("{path} is not UTF-8: {byte} is not part of any character"))
+        }
         FileError::TooLarge(bytes) => problem(format!("{path} is larger than {bytes} bytes")),
         FileError::Other(reason) => problem(format!("{path} cannot be read: {reason}")),
     }

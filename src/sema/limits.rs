@@ -2,7 +2,11 @@
 
 /// Passes of one loop.
 pub const LOOP_PASSES: u64 = 300_000;
-/// Statements carried out in all.
+/// Passes of one loop in which mistakes of earlier passes come again: then the loop is left.
+pub const LOOP_REPEATS: u64 = 100;
+/// Repetitions of mistakes in all.
+pub const REPEATS: u64 = 10_000;
+/// Statements carried out in all; points of patterns and curves and elements of runs count as one each.
 pub const STATEMENTS: u64 = 2_000_000;
 /// Macros that call one another.
 pub const CALL_DEPTH: usize = 64;

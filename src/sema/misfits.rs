@@ -33,6 +33,7 @@ impl Analyser<'_> {
     ) -> Diagnostic {
         let text = forms::written(token);
         let near_word = did_you_mean(&text, expected.words.iter().copied());
+        let near_option = did_you_mean(&text, expected.options.iter().copied());
         let only =
             |f: fn(Kind) -> bool| expected.words.is_empty() && expected.slots.iter().all(|s| f(s.kind));
         match token.name {
@@ -45,6 +46,9 @@ impl Analyser<'_> {
                 let message = format!("{} takes {} here", statement.word, expected.text());
                 Diagnostic::new(&codes::WRONG_KIND, token.span, message)
                     .help(format!("write `'{}'`", name.text))
+            }
+            Some(_) if near_word.is_none() && near_option.is_some() => {
+                forms::unknown_minor(statement, &text, token.span, &expected.options)
             }
             Some(name)
                 if near_word.is_none()
@@ -69,7 +73,7 @@ impl Analyser<'_> {
             self.fail(work, problem);
             return;
         };
-        if token.is_poison() {
+        if work.tokens.iter().take(at + 1).any(Token::is_poison) {
             work.failed = true;
             return;
         }

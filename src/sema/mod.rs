@@ -54,6 +54,8 @@ use scope::Scope;
 pub struct Options {
     /// `-D NAME=VALUE`, as given.
     pub defines: Vec<(String, String)>,
+    /// What stands behind column 72 of a line is no part of the program.
+    pub card_columns: bool,
 }
 
 /// Evaluates the program in file `main`. `None` after errors, all of which are in `sink`. Included files and
@@ -66,7 +68,7 @@ pub fn analyse(
     sink: &mut Sink,
 ) -> Option<ir::Program> {
     let text = sources.file(main).text.clone();
-    let tree = syntax::parse(main, &text, sink);
+    let tree = syntax::parse_columns(main, &text, options.card_columns, sink);
     analyse_tree(tree, sources, files, options, sink)
 }
 
@@ -115,6 +117,7 @@ struct Analyser<'a> {
     /// The `UNITS` statement.
     unit_stated: Option<Span>,
     include: include::Includes,
+    card_columns: bool,
     executed: u64,
     ended: Option<End>,
     /// The statement being carried out.
@@ -140,6 +143,7 @@ impl<'a> Analyser<'a> {
             unit_used: None,
             unit_stated: None,
             include,
+            card_columns: options.card_columns,
             executed: 0,
             ended: None,
             here,

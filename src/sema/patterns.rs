@@ -58,7 +58,7 @@ impl Analyser<'_> {
             self.limit(format!("a pattern has more than {} points", limits::PATTERN_POINTS));
             return None;
         }
-        Some(Value::Entity(Entity::Pattern(points.into())))
+        self.charge(points.len()).then(|| Value::Entity(Entity::Pattern(points.into())))
     }
 
     /// The vector of equal steps, mm.

@@ -419,12 +419,27 @@ impl Analyser<'_> {
     pub(super) fn unknown_word(&mut self, word: &Name) {
         let message = format!("there is no statement {}", word.text);
         let problem = Diagnostic::new(&codes::UNKNOWN_WORD, word.span, message);
-        let problem = match did_you_mean(&word.text, crate::vocab::major_words()) {
-            Some(near) => problem.help(format!("did you mean `{near}`?")),
-            None => problem,
+        let binding = self.scope.get(&word.upper());
+        let problem = match (binding, did_you_mean(&word.text, crate::vocab::major_words())) {
+            (Some(Binding { kind: BindingKind::Macro(_), declared }), _) => {
+                problem.label(*declared, "this is a macro").help(format!("write `CALL/ {}, …`", word.text))
+            }
+            _ if is_nc_word(&word.text) => {
+                problem.help("a block of the control's own language is copied by `INSERT`")
+            }
+            (_, Some(near)) => problem.help(format!("did you mean `{near}`?")),
+            (_, None) => problem,
         };
         self.report(problem);
     }
+}
+
+/// `G01`, `M30`, `T1`: a letter and figures.
+fn is_nc_word(text: &str) -> bool {
+    let mut characters = text.chars();
+    let letter = characters.next().is_some_and(|c| "GMTSFN".contains(c.to_ascii_uppercase()));
+    let rest = characters.as_str();
+    letter && !rest.is_empty() && rest.bytes().all(|b| b.is_ascii_digit())
 }
 
 /// The word, text or number that an argument is written as.

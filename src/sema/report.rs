@@ -29,6 +29,7 @@ pub struct Report {
     /// By code and place; what has no place, by its text.
     seen: BTreeMap<(&'static str, Option<Span>, String), usize>,
     errors: usize,
+    repeats: u64,
 }
 
 impl Report {
@@ -40,6 +41,7 @@ impl Report {
         if let Some(&index) = self.seen.get(&key) {
             if let Some((_, times)) = self.items.get_mut(index) {
                 *times += 1;
+                self.repeats += 1;
             }
             return;
         }
@@ -54,6 +56,11 @@ impl Report {
     #[must_use]
     pub fn errors(&self) -> usize {
         self.errors
+    }
+    /// How often earlier messages came again.
+    #[must_use]
+    pub fn repeats(&self) -> u64 {
+        self.repeats
     }
     /// Hands everything to `sink`.
     pub fn finish(self, sink: &mut Sink) {

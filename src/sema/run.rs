@@ -27,6 +27,8 @@ struct Loop {
     start: usize,
     end: usize,
     done: u64,
+    /// Repetitions of mistakes before it.
+    repeats: u64,
     count: Option<Count>,
 }
 
@@ -53,10 +55,27 @@ impl Analyser<'_> {
     fn count_statement(&mut self, span: Span) -> bool {
         self.here = span;
         self.executed += 1;
+        if self.report.repeats() > limits::REPEATS {
+            self.limit(format!("the mistakes above have come again more than {} times", limits::REPEATS));
+            return false;
+        }
+        self.within_statements()
+    }
+
+    /// Counts work that is done by one statement on many points or elements; whether it may go on.
+    pub(super) fn charge(&mut self, items: usize) -> bool {
+        self.executed = self.executed.saturating_add(items as u64);
+        self.within_statements()
+    }
+
+    fn within_statements(&mut self) -> bool {
         if self.executed <= limits::STATEMENTS {
             return true;
         }
-        self.limit(format!("more than {} statements have been carried out", limits::STATEMENTS));
+        self.limit(format!(
+            "more than {} statements have been carried out, points and elements counted singly",
+            limits::STATEMENTS
+        ));
         false
     }
 
@@ -193,7 +212,7 @@ impl Analyser<'_> {
     ) -> Option<usize> {
         let Link::Start { end } = link else { return None };
         if loops.last().is_none_or(|l| l.start != at) {
-            loops.push(Loop { start: at, end, done: 0, count: None });
+            loops.push(Loop { start: at, end, done: 0, repeats: self.report.repeats(), count: None });
         }
         let value = self.evaluate(condition);
         let truth = self.condition(&(value, condition.span));
@@ -240,7 +259,13 @@ impl Analyser<'_> {
         match self.count(variable, from, to, step) {
             Some(count) if count.passes > 0 => {
                 self.set_variable(variable, Value::Number(count.from));
-                loops.push(Loop { start: at, end, done: 1, count: Some(count) });
+                loops.push(Loop {
+                    start: at,
+                    end,
+                    done: 1,
+                    repeats: self.report.repeats(),
+                    count: Some(count),
+                });
                 None
             }
             Some(_) => Some(end + 1),
@@ -298,6 +323,11 @@ impl Analyser<'_> {
     fn next_pass(&mut self, link: Link, loops: &mut Vec<Loop>) -> Option<usize> {
         let Link::End { start } = link else { return None };
         let innermost = loops.last_mut().filter(|l| l.start == start)?;
+        if self.report.repeats() > innermost.repeats + limits::LOOP_REPEATS {
+            loops.pop();
+            self.state.forget();
+            return None;
+        }
         let Some(count) = &innermost.count else { return Some(start) };
         if innermost.done >= count.passes {
             loops.pop();

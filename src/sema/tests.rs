@@ -17,7 +17,7 @@ pub(super) fn run_with(
     let main = sources.add("main.apt", text);
     let mut sink = Sink::default();
     let defines = defines.iter().map(|(n, v)| ((*n).to_owned(), (*v).to_owned())).collect();
-    let program = analyse(main, &mut sources, files, &Options { defines }, &mut sink);
+    let program = analyse(main, &mut sources, files, &Options { defines, ..Options::default() }, &mut sink);
     let items = sink.into_items();
     let codes = items.iter().map(|d| match &d.primary {
         Some(p) => {

@@ -172,10 +172,17 @@ fn missing_slash(place: &Place<'_>, at: usize) -> Option<Diagnostic> {
     let end = major.as_span().end();
     let operand = operand.as_span().start();
     let comma = place.text.get(end..operand).unwrap_or("").contains(',');
-    if at < end || at > operand || (comma && !vocab::is_statement_word(major.as_str())) {
+    // `GOTO(1, 2)` reads as a subscripted name up to its end.
+    let group = place.text.get(operand..).is_some_and(|t| t.starts_with('(')) && end == operand;
+    if at < end || (at > operand && !group) || (comma && !vocab::is_statement_word(major.as_str())) {
         return None;
     }
     let glued = end == operand;
+    // `R + 1 = 6` adds; it lacks no slash.
+    let sign = place.text.get(operand..).is_some_and(|t| t.starts_with(['+', '-']));
+    if sign && !vocab::is_statement_word(major.as_str()) {
+        return None;
+    }
     if glued && !vocab::is_statement_word(major.as_str()) {
         return None;
     }

@@ -8,6 +8,7 @@ use pest::Parser;
 use rayon::prelude::*;
 
 pub mod ast;
+mod card;
 mod failure;
 mod grammar;
 mod limits;
@@ -45,6 +46,11 @@ pub fn parse(file: FileId, text: &str, sink: &mut Sink) -> Program {
     }
     report(mistakes, sink);
     Program { file, statements, comments: split.comments }
+}
+
+/// Parses a file of which, with `card_columns`, what stands behind column 72 is no part of the program.
+pub fn parse_columns(file: FileId, text: &str, card_columns: bool, sink: &mut Sink) -> Program {
+    if card_columns { parse(file, &card::blank_card_columns(text), sink) } else { parse(file, text, sink) }
 }
 
 /// Statements with their mistakes, in order; in parallel when there are enough of them.

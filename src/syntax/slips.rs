@@ -35,6 +35,18 @@ pub(super) fn stray(character: char, span: Span) -> Diagnostic {
     }
 }
 
+/// What closes a group or a text that this character opens: it needs no message of its own.
+pub(super) fn closers(character: char) -> &'static [char] {
+    match character {
+        '[' => &[']'],
+        '{' => &['}'],
+        '\u{2018}' | '\u{201a}' | '\u{2019}' => &['\u{2019}', '\u{2018}'],
+        '\u{201c}' | '\u{201e}' | '\u{201d}' => &['\u{201d}', '\u{201c}'],
+        '«' => &['»'],
+        _ => &[],
+    }
+}
+
 fn advice(character: char) -> Option<String> {
     if let Some(plain) = plain(character) {
         return Some(format!("write `{plain}`"));

@@ -94,6 +94,8 @@ struct Scan {
     joints: Vec<usize>,
     /// Mistakes found in it.
     mistakes: usize,
+    /// Characters that close what a reported stray character opened.
+    closers: &'static [char],
     /// The `$` that nothing has followed yet.
     dollar: Option<usize>,
 }
@@ -187,6 +189,7 @@ impl Splitter<'_> {
             open: Vec::new(),
             joints: Vec::new(),
             mistakes: 0,
+            closers: &[],
             dollar: None,
         };
         while let Next::GoOn = self.mark(&mut scan) {}
@@ -297,6 +300,11 @@ impl Splitter<'_> {
             return;
         };
         let run: usize = rest.chars().take_while(|&c| c == first).map(char::len_utf8).sum();
+        if scan.closers.contains(&first) {
+            scan.closers = &[];
+            return self.take(scan, run);
+        }
+        scan.closers = slips::closers(first);
         if scan.mistakes < limits::STRAY_PER_STATEMENT {
             if u8::try_from(first).is_ok_and(is_control) {
                 self.report_control(at);

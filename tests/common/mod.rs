@@ -16,7 +16,7 @@ impl FileProvider for Directory {
         let folder = from.and_then(|f| Path::new(f).parent()).unwrap_or(Path::new(""));
         let name = folder.join(path);
         let bytes = std::fs::read(self.0.join(&name)).map_err(|_| FileError::NotFound)?;
-        let text = String::from_utf8(bytes).map_err(|e| FileError::NotUtf8(e.utf8_error().valid_up_to()))?;
+        let text = partwright::source::decode(bytes)?;
         Ok((name.to_string_lossy().into_owned(), text))
     }
 }
