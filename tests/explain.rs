@@ -141,7 +141,7 @@ fn compile_right(code: &Code, blocks: &[Block]) -> Result<(), String> {
 }
 
 /// Codes that no program text alone can trigger: what does, and the tests that do.
-const NOT_BY_A_PROGRAM: [(&str, &[&str]); 7] = [
+const NOT_BY_A_PROGRAM: [(&str, &[&str]); 6] = [
     (
         "the command line, or a file that cannot be read or written: tests/cli*.rs",
         &[
@@ -159,7 +159,6 @@ const NOT_BY_A_PROGRAM: [(&str, &[&str]); 7] = [
         &["E0606", "E0608", "N0609", "N0610"],
     ),
     ("a control character, which these files should not hold: src/syntax/tests.rs", &["E0107"]),
-    ("a motion made by hand: src/diag/cam/tests.rs", &["E0406"]),
     ("a groove that sema has let through: src/plan/tests.rs", &["E0506"]),
 ];
 

@@ -86,6 +86,8 @@ fn loops_and_macros_that_never_end_are_stopped() {
         "M = MACRO\nCALL/ M\nTERMAC\nCALL/ M\n",
         "DO/ I = 1, 1E12\nDO/ J = 1, 1E12\nX = I\nENDDO\nENDDO\n",
         "M1 = MACRO\nDO/ I = 1, 1000000\nGOTO/ I, 0, 0\nENDDO\nTERMAC\nDO/ J = 1, 1000000\nCALL/ M1\nENDDO\n",
+        "V1 = VECTOR/ 1, 0\nDO/ I = 1, 100000\nP(I) = PATERN/ LINEAR, (0, 0), V1, 100000\nENDDO\n",
+        "DO/ I = 1, 10000\nP(I) = POINT/ I, 0\nENDDO\nDO/ J = 1, 100000\nS(J) = SPLINE/ P(ALL)\nENDDO\n",
     ] {
         let start = Instant::now();
         let build = compile(text);

@@ -23,7 +23,7 @@ pub mod print;
 pub struct Origin {
     /// The statement.
     pub span: Span,
-    /// `CALL` statements from the outermost to the innermost.
+    /// `CALL` statements from the outermost to the innermost; of more than eight, the four at either end.
     pub calls: Vec<Span>,
 }
 

@@ -10,6 +10,8 @@ pub const REPEATS: u64 = 10_000;
 pub const STATEMENTS: u64 = 2_000_000;
 /// Macros that call one another.
 pub const CALL_DEPTH: usize = 64;
+/// Calls that the origin of a step names.
+pub const ORIGIN_CALLS: usize = 8;
 /// Files that include one another.
 pub const INCLUDE_DEPTH: usize = 32;
 /// Steps of the evaluated program.

@@ -196,13 +196,23 @@ impl<'a> Analyser<'a> {
 
     /// The origin of what the statement at `span` makes.
     fn origin(&mut self, span: Span) -> Handle<ir::Origin> {
-        let key = (span, self.call_spans.clone());
+        let key = (span, self.calls_of_origins());
         if let Some(&known) = self.origins.get(&key) {
             return known;
         }
         let handle = self.program.origins.push(ir::Origin { span, calls: key.1.clone() });
         self.origins.insert(key, handle);
         handle
+    }
+
+    /// The calls that led here; of very many, the outermost and the innermost.
+    fn calls_of_origins(&self) -> Vec<Span> {
+        let half = limits::ORIGIN_CALLS / 2;
+        let calls = &self.call_spans;
+        match (calls.get(..half), calls.len().checked_sub(half).and_then(|i| calls.get(i..))) {
+            (Some(outer), Some(inner)) if calls.len() > limits::ORIGIN_CALLS => [outer, inner].concat(),
+            _ => calls.clone(),
+        }
     }
 
     /// Adds a step made by the statement being carried out.
