@@ -141,7 +141,7 @@ fn compile_right(code: &Code, blocks: &[Block]) -> Result<(), String> {
 }
 
 /// Codes that no program text alone can trigger: what does, and the tests that do.
-const NOT_BY_A_PROGRAM: [(&str, &[&str]); 6] = [
+const NOT_BY_A_PROGRAM: [(&str, &[&str]); 8] = [
     (
         "the command line, or a file that cannot be read or written: tests/cli*.rs",
         &[
@@ -158,6 +158,14 @@ const NOT_BY_A_PROGRAM: [(&str, &[&str]); 6] = [
         "a target program of a kind that sources do not make yet: src/lower/tests",
         &["E0606", "E0608", "N0609", "N0610"],
     ),
+    (
+        "a CL file, which is no program of the language: src/clfile/tests",
+        &[
+            "E1001", "E1002", "E1003", "E1004", "E1005", "E1006", "E1007", "E1008", "N1013", "W1010",
+            "W1011", "W1012",
+        ],
+    ),
+    ("a CL file or its producer, without a test so far", &["E1009", "N1014", "N0611"]),
     ("a control character, which these files should not hold: src/syntax/tests.rs", &["E0107"]),
     ("a groove that sema has let through: src/plan/tests.rs", &["E0506"]),
 ];
