@@ -2,7 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::dialect::{Dialect, FullCircleWords};
+use super::dialect::{Dialect, DwellUnit, FullCircleWords, Spec};
+use crate::cl::cycle::CycleName;
 use crate::diag::{Diagnostic, codes, did_you_mean};
 use crate::ir::{Machine, Rotary};
 use crate::target::{
@@ -25,15 +26,17 @@ impl Dialect {
     ) -> Result<Capabilities, Diagnostic> {
         let spec = &self.spec;
         let rotary = match machine.and_then(|m| m.rotary) {
-            Some(rotary) => Some(self.rotary(rotary)?),
+            Some(rotary) => Some(self.rotary(rotary, unit)?),
             None => None,
         };
+        let options = self.options(machine);
+        self.check_dwell(&options)?;
         Ok(Capabilities {
             name: self.name.clone(),
             grid: self.grid(unit),
             arcs: spec.arcs.enabled,
-            planes: spec.arcs.enabled.then_some(Plane::Xy).into_iter().collect(),
-            cycles: BTreeSet::new(),
+            planes: self.planes(),
+            cycles: self.cycles(),
             max_sweep: Angle::degrees(spec.arcs.max_sweep).rad(),
             full_circle: match spec.arcs.full_circle {
                 FullCircleWords::Split => FullCircle::Split(spec.arcs.split),
@@ -42,9 +45,9 @@ impl Dialect {
             radius_range: (spec.arcs.min_radius, spec.arcs.max_radius),
             radius_tolerance: spec.arcs.radius_tolerance,
             helix: spec.arcs.helix,
-            nurbs: match spec.nurbs.form.as_str() {
-                "g06.2" => Some(NurbsForm::G062 { knot_decimals: spec.nurbs.knot_decimals }),
-                "g5.2" => Some(NurbsForm::G052),
+            nurbs: match spec.nurbs.knots.as_str() {
+                "printed" => Some(NurbsForm::G062 { knot_decimals: spec.nurbs.knot_decimals }),
+                "uniform" => Some(NurbsForm::G052),
                 _ => None,
             },
             rotary,
@@ -59,7 +62,7 @@ impl Dialect {
             ranges: self.ranges(unit),
             mist: !spec.coolant.mist.is_empty(),
             flood: !spec.coolant.flood.is_empty(),
-            options: self.options(machine),
+            options,
             optional_stop: !spec.stops.optional.is_empty(),
             spindle: spec.limits.spindle.map(|[low, high]| (low, high)),
         })
@@ -86,22 +89,57 @@ impl Dialect {
         Ranges {
             linear: least(&["x", "y", "z"]),
             rotary: least(&["rotary"]),
-            centre: least(&["i", "j"]),
+            centre: least(&["i", "j", "k"]),
             feed_per_minute: least(&["feed"]),
             feed_per_revolution: least(&["feed-per-revolution"]),
             inverse_time: least(&["feed-inverse-time"]),
         }
     }
 
-    fn rotary(&self, wanted: Rotary) -> Result<RotaryAxis, Diagnostic> {
+    /// Planes of arcs.
+    fn planes(&self) -> BTreeSet<Plane> {
+        let named = |name: &String| match name.as_str() {
+            "xy" => Plane::Xy,
+            "zx" => Plane::Zx,
+            _ => Plane::Yz,
+        };
+        self.spec.arcs.planes.iter().filter(|_| self.spec.arcs.enabled).map(named).collect()
+    }
+
+    /// Drilling cycles that are kept.
+    fn cycles(&self) -> BTreeSet<CycleName> {
+        let kept = self.spec.cycles.iter().filter(|(_, cycle)| cycle.enabled);
+        kept.filter_map(|(name, _)| CycleName::by_text(name)).collect()
+    }
+
+    /// A declared unit of dwells is one that is known.
+    fn check_dwell(&self, options: &BTreeMap<String, String>) -> Result<(), Diagnostic> {
+        let declared = [self.spec.dwell.unit, self.spec.cycle_dwell.unit].contains(&DwellUnit::Declared);
+        let value = Spec::option(options, "DWELL").unwrap_or_default();
+        if !declared || ["s", "ms"].iter().any(|unit| value.eq_ignore_ascii_case(unit)) {
+            return Ok(());
+        }
+        Err(Diagnostic::global(
+            &codes::post::MACHINE_OPTION,
+            format!("DWELL is the unit of this machine's dwells, `s` or `ms`, not `{value}`"),
+        ))
+    }
+
+    fn rotary(&self, wanted: Rotary, unit: LengthUnit) -> Result<RotaryAxis, Diagnostic> {
         let rules = &self.spec.rotary;
         let default = rules.letter.chars().next().unwrap_or('C');
         let letter = wanted.letter.unwrap_or(default).to_ascii_uppercase();
-        if !rules.enabled {
-            return Err(Diagnostic::global(
-                &codes::post::MACHINE_OPTION,
-                format!("{} has no rotary axis", self.title()),
-            ));
+        if !rules.enabled.of(unit) {
+            let other = match unit {
+                LengthUnit::Millimetre => LengthUnit::Inch,
+                LengthUnit::Inch => LengthUnit::Millimetre,
+            };
+            let message = if rules.enabled.of(other) {
+                format!("{} takes a rotary axis in {} programs only", self.title(), other.symbol())
+            } else {
+                format!("{} has no rotary axis", self.title())
+            };
+            return Err(Diagnostic::global(&codes::post::MACHINE_OPTION, message));
         }
         if !rules.letters.contains(letter) {
             return Err(Diagnostic::global(

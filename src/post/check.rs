@@ -1,9 +1,11 @@
 //! Checks of a resolved dialect that no single key can show.
 
-use super::dialect::Dialect;
-use super::pattern::{self, Item};
+use super::dialect::{Dialect, FullCircleWords};
+use super::pattern::{Item, Place};
 use super::template::Renderer;
 use super::tree;
+use super::variables::Scope;
+use crate::cl::cycle::CycleName;
 use crate::diag::{Code, Diagnostic, codes, did_you_mean};
 use crate::source::Span;
 use crate::units::LengthUnit;
@@ -13,7 +15,8 @@ use crate::units::LengthUnit;
 pub fn check(dialect: &Dialect, templates: bool) -> Vec<Diagnostic> {
     let mut errors = Vec::new();
     check_patterns(dialect, &mut errors);
-    check_named_words(dialect, &mut errors);
+    check_words(dialect, &mut errors);
+    check_cycles(dialect, &mut errors);
     check_decimals(dialect, &mut errors);
     check_safe_start(dialect, &mut errors);
     check_tool_change(dialect, &mut errors);
@@ -32,36 +35,119 @@ pub(super) fn at(dialect: &Dialect, path: &str, code: &'static Code, message: St
     }
 }
 
+/// Every pattern with its place in the file and what it is for.
+pub(super) fn patterns(dialect: &Dialect) -> Vec<(&'static str, Place, &[String])> {
+    let spec = &dialect.spec;
+    vec![
+        ("patterns.rapid", Place::Rapid, &spec.patterns.rapid),
+        ("patterns.line", Place::Line, &spec.patterns.line),
+        ("patterns.arc", Place::Arc, &spec.patterns.arc),
+        ("patterns.helix", Place::Arc, &spec.patterns.helix),
+        ("patterns.hole", Place::Hole, &spec.patterns.hole),
+        ("nurbs.begin", Place::Nurbs, &spec.nurbs.begin),
+        ("nurbs.point", Place::Nurbs, &spec.nurbs.point),
+        ("nurbs.rest", Place::Nurbs, &spec.nurbs.rest),
+        ("nurbs.end", Place::Nurbs, &spec.nurbs.end),
+        ("spindle.on", Place::Spindle, &spec.spindle.on),
+        ("spindle.after-tool-change", Place::Spindle, &spec.spindle.after_tool_change),
+        ("dwell.block", Place::Dwell, &spec.dwell.block),
+        ("path-control.tolerance", Place::Path, &spec.path_control.tolerance),
+        ("path-control.exact", Place::Path, &spec.path_control.exact),
+    ]
+}
+
 fn check_patterns(dialect: &Dialect, errors: &mut Vec<Diagnostic>) {
-    let patterns = &dialect.spec.patterns;
-    for (name, items) in [("rapid", &patterns.rapid), ("line", &patterns.line), ("arc", &patterns.arc)] {
-        let path = format!("patterns.{name}");
+    for (path, place, items) in patterns(dialect) {
         for item in items {
-            if let Some(problem) = check_item(dialect, item) {
-                errors.push(at(dialect, &path, &codes::post::BAD_PATTERN, problem));
+            if let Some(problem) = check_item(dialect, place, item) {
+                errors.push(at(dialect, path, &codes::post::BAD_PATTERN, problem));
             }
         }
-        let wanted: &[&str] =
-            if name == "arc" && !dialect.spec.arcs.enabled { &[] } else { &["x", "y", "z"] };
-        for axis in wanted.iter().filter(|axis| !items.iter().any(|i| i == *axis)) {
-            let problem = format!("the pattern `{name}` has no word `{axis}`: that axis could never move");
-            errors.push(at(dialect, &path, &codes::post::BAD_PATTERN, problem));
+        for wanted in needed(dialect, path).iter().filter(|w| !items.iter().any(|i| i == *w)) {
+            let problem = format!("the pattern has no `{wanted}`: it could never be said");
+            errors.push(at(dialect, path, &codes::post::BAD_PATTERN, problem));
         }
-        check_collision(dialect, items, &path, errors);
+        check_collision(dialect, items, path, errors);
+    }
+    check_arc(dialect, errors);
+}
+
+/// Items that a pattern cannot do without.
+fn needed(dialect: &Dialect, path: &str) -> &'static [&'static str] {
+    let spec = &dialect.spec;
+    let curves = spec.nurbs.knots != "none";
+    match path {
+        "patterns.rapid" | "patterns.line" => &["x", "y", "z"],
+        "patterns.hole" if spec.cycles.values().any(|c| c.enabled) => &["x", "y"],
+        "nurbs.point" if curves => &["x", "y"],
+        "nurbs.begin" if curves => &["feed"],
+        "spindle.on" => &["spindle"],
+        "dwell.block" => &["dwell"],
+        "path-control.tolerance" if !spec.path_control.tolerance.is_empty() => &["path-tolerance"],
+        _ => &[],
     }
 }
 
-fn check_item(dialect: &Dialect, item: &str) -> Option<String> {
-    match Item::parse(item) {
-        Some(Item::Word(slot)) if !dialect.spec.words.contains_key(slot.name()) => {
-            Some(format!("the word `{}` is not in [words]", slot.name()))
+/// Arcs say where they end and what they turn about, in every plane they are claimed for.
+fn check_arc(dialect: &Dialect, errors: &mut Vec<Diagnostic>) {
+    let spec = &dialect.spec;
+    if !spec.arcs.enabled {
+        return;
+    }
+    let mut say = |path: &str, message: String| {
+        errors.push(at(dialect, path, &codes::post::BAD_PATTERN, message));
+    };
+    let own_helix = !spec.patterns.helix.is_empty();
+    let helix = if own_helix { &spec.patterns.helix } else { &spec.patterns.arc };
+    let has = |items: &[String], word: &str| items.iter().any(|i| i == word);
+    let radius_only = |items: &[String]| !has(items, "i") && !has(items, "cx");
+    for (path, items) in [("patterns.arc", &spec.patterns.arc), ("patterns.helix", helix)] {
+        let path = if own_helix { path } else { "patterns.arc" };
+        let all = |words: [&str; 2]| words.iter().all(|w| has(items, w));
+        if !all(["x", "y"]) && !has(items, "sweep") {
+            say(path, "the pattern says neither where an arc ends (`x`, `y`) nor how far it turns (`sweep`)".into());
         }
-        Some(_) => None,
-        None => {
-            let near = did_you_mean(item, pattern::ITEM_NAMES.iter().copied())
+        if !all(["i", "j"]) && !all(["cx", "cy"]) && !has(items, "radius") {
+            say(path, "the pattern has no centre (`i`, `j` or `cx`, `cy`) and no `radius`".into());
+        }
+        if radius_only(items) && spec.arcs.full_circle != FullCircleWords::Split {
+            say(path, "a radius alone is no full circle: `arcs.full-circle` must be \"split\"".into());
+        }
+        let third = if has(items, "cx") { "cz" } else { "k" };
+        let others = spec.arcs.planes.iter().any(|p| p != "xy");
+        if others && !radius_only(items) && !has(items, third) {
+            say(path, format!("arcs are claimed for other planes than XY, and the pattern has no `{third}`"));
+        }
+        if others && !has(items, "plane") && !has(items, "direction") {
+            say(path, "arcs are claimed for several planes, and the pattern has no `plane`".into());
+        }
+    }
+    if spec.arcs.helix && !has(helix, "z") {
+        say(
+            if own_helix { "patterns.helix" } else { "patterns.arc" },
+            "helices are claimed, and the pattern has no `z`".into(),
+        );
+    }
+    if !has(&spec.arcs.planes, "xy") {
+        say("arcs.planes", "there are arcs, but none in the XY plane".into());
+    }
+}
+
+fn check_item(dialect: &Dialect, place: Place, item: &str) -> Option<String> {
+    let known = place.items();
+    match Item::parse(item) {
+        Some(Item::Text(_) | Item::NewLine) => None,
+        Some(parsed) if known.contains(&item) => match parsed.word_name() {
+            Some(word) if !dialect.spec.words.contains_key(word) => {
+                Some(format!("the word `{word}` is not in [words]"))
+            }
+            _ => None,
+        },
+        _ => {
+            let near = did_you_mean(item, known.iter().copied())
                 .map(|n| format!("; did you mean `{n}`?"))
-                .unwrap_or_default();
-            Some(format!("`{item}` is no item of a pattern{near}; texts start with `=`"))
+                .unwrap_or_else(|| format!("; there are {}", known.join(", ")));
+            Some(format!("`{item}` is no item of this pattern{near}; texts start with `=`"))
         }
     }
 }
@@ -73,9 +159,11 @@ fn check_collision(dialect: &Dialect, items: &[String], path: &str, errors: &mut
         if item == "/" {
             seen.clear();
         }
-        let Some(Item::Word(slot)) = Item::parse(item) else { continue };
-        let Some(word) = dialect.spec.words.get(slot.name()) else { continue };
-        if word.prefix.is_empty() {
+        let parsed = Item::parse(item);
+        let Some(name) = parsed.as_ref().and_then(Item::word_name) else { continue };
+        let Some(word) = dialect.spec.words.get(name) else { continue };
+        // Numbers that are told apart by their place have no address.
+        if !word.prefix.bytes().any(|b| b.is_ascii_alphabetic()) {
             continue;
         }
         if let Some((other, _)) = seen.iter().find(|(_, prefix)| *prefix == word.prefix) {
@@ -86,21 +174,33 @@ fn check_collision(dialect: &Dialect, items: &[String], path: &str, errors: &mut
     }
 }
 
-/// Words that keys name, and words the writer cannot do without.
-fn check_named_words(dialect: &Dialect, errors: &mut Vec<Diagnostic>) {
-    let named =
-        [("dwell.word", &dialect.spec.dwell.word), ("cycle-dwell.word", &dialect.spec.cycle_dwell.word)];
-    for (path, word) in named {
-        if !dialect.spec.words.contains_key(word) {
-            let message = format!("the word `{word}` is not in [words]");
-            errors.push(at(dialect, path, &codes::post::BAD_PATTERN, message));
+/// Words that are spelled in a way no control could read.
+fn check_words(dialect: &Dialect, errors: &mut Vec<Diagnostic>) {
+    for (name, word) in &dialect.spec.words {
+        for (key, text) in [("prefix", &word.prefix), ("suffix", &word.suffix)] {
+            if text.len() > 16 || text.bytes().any(|b| !(b.is_ascii_graphic() || b == b' ')) {
+                let message = format!("the {key} of `{name}` is not a short printable text");
+                errors.push(at(dialect, &format!("words.{name}.{key}"), &codes::post::WRONG_VALUE, message));
+            }
         }
     }
-    for (name, word) in &dialect.spec.words {
-        let bad = word.prefix.bytes().any(|b| !(b.is_ascii_graphic() || b == b' '));
-        if bad || word.prefix.len() > 12 {
-            let message = format!("the prefix of `{name}` is not a short printable text");
-            errors.push(at(dialect, &format!("words.{name}.prefix"), &codes::post::WRONG_VALUE, message));
+}
+
+/// Cycles are ones that exist, and are said somewhere.
+fn check_cycles(dialect: &Dialect, errors: &mut Vec<Diagnostic>) {
+    let names = || CycleName::ALL.into_iter().map(CycleName::text);
+    for (name, cycle) in &dialect.spec.cycles {
+        let path = format!("cycles.{name}");
+        if CycleName::by_text(name).is_none() {
+            let help = match did_you_mean(name, names()) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => format!("there are {}", names().collect::<Vec<_>>().join(", ")),
+            };
+            let message = format!("`{name}` is no drilling cycle");
+            errors.push(at(dialect, &path, &codes::post::BAD_PATTERN, message).help(help));
+        } else if cycle.enabled && cycle.before.is_empty() && cycle.call.is_empty() {
+            let message = format!("the cycle `{name}` has neither `before` nor `call`: nothing would drill");
+            errors.push(at(dialect, &path, &codes::post::BAD_PATTERN, message));
         }
     }
 }
@@ -113,11 +213,11 @@ fn check_decimals(dialect: &Dialect, errors: &mut Vec<Diagnostic>) {
         let linear = decimals("x");
         let bad = |word: &&&str| match **word {
             "y" | "z" => decimals(word) != linear,
-            "j" => decimals("j") != decimals("i"),
-            "cy" => decimals("cy") != decimals("cx"),
+            "j" | "k" => decimals(word) != decimals("i"),
+            "cx" | "cy" | "cz" => decimals(word) != decimals("i").max(linear),
             _ => decimals(word) < linear,
         };
-        for word in ["y", "z", "i", "j", "cx", "cy", "radius"].iter().filter(bad) {
+        for word in ["y", "z", "i", "j", "k", "cx", "cy", "cz", "radius"].iter().filter(bad) {
             let path = format!("words.{word}.decimals");
             let path = if tree::find(&dialect.tree, &path).is_some() { &path } else { "words.x.decimals" };
             let message = format!(
@@ -171,31 +271,40 @@ fn check_tool_change(dialect: &Dialect, errors: &mut Vec<Diagnostic>) {
 fn check_rotary(dialect: &Dialect, errors: &mut Vec<Diagnostic>) {
     let rotary = &dialect.spec.rotary;
     let single = rotary.letter.len() == 1 && rotary.letters.contains(&rotary.letter);
-    if rotary.enabled && !single {
+    let enabled = [LengthUnit::Millimetre, LengthUnit::Inch].iter().any(|u| rotary.enabled.of(*u));
+    if enabled && !single {
         let message =
             format!("`rotary.letter` is \"{}\", not one letter of \"{}\"", rotary.letter, rotary.letters);
         errors.push(at(dialect, "rotary.letter", &codes::post::WRONG_VALUE, message));
     }
 }
 
-/// All templates of a dialect with their paths.
-pub(super) fn templates(dialect: &Dialect) -> Vec<(String, &str)> {
-    let templates = &dialect.spec.templates;
-    let change = &dialect.spec.tool_change;
-    let fixed = [
-        ("templates.header", &templates.header),
-        ("templates.operation", &templates.operation),
-        ("templates.footer", &templates.footer),
-        ("tool-change.with-first-z", &change.with_first_z),
+/// Every template with its place in the file and what it can read.
+pub(super) fn templates(dialect: &Dialect) -> Vec<(String, Scope, &str)> {
+    let spec = &dialect.spec;
+    let templates = &spec.templates;
+    let mut all = vec![
+        ("templates.header".to_owned(), Scope::Everywhere, templates.header.as_str()),
+        ("templates.operation".to_owned(), Scope::Operation, &templates.operation),
+        ("templates.footer".to_owned(), Scope::Everywhere, &templates.footer),
+        ("tool-change.with-first-z".to_owned(), Scope::ToolChange, &spec.tool_change.with_first_z),
     ];
-    let fixed = fixed.into_iter().map(|(path, text)| (path.to_owned(), text.as_str()));
-    let blocks = change.blocks.iter().map(|(n, t)| (format!("tool-change.blocks.{n}"), t.as_str()));
-    fixed.chain(blocks).collect()
+    for (name, text) in &spec.tool_change.blocks {
+        all.push((format!("tool-change.blocks.{name}"), Scope::ToolChange, text));
+    }
+    for (name, cycle) in &spec.cycles {
+        let parts =
+            [("before", &cycle.before), ("call", &cycle.call), ("words", &cycle.words), ("end", &cycle.end)];
+        for (key, text) in parts {
+            all.push((format!("cycles.{name}.{key}"), Scope::Cycle, text));
+        }
+    }
+    all
 }
 
 fn check_templates(dialect: &Dialect, errors: &mut Vec<Diagnostic>) {
     let renderer = Renderer::new(&dialect.spec.comments);
-    for (path, template) in templates(dialect) {
+    for (path, _, template) in templates(dialect) {
         if let Err(error) = renderer.check(template) {
             errors.push(template_error(dialect, &path, &error));
         }

@@ -131,7 +131,9 @@ pub struct Spec {
     pub feed: Feed,
     pub rotary: Rotary,
     pub dwell: Dwell,
-    pub cycle_dwell: Dwell,
+    pub cycle_dwell: CycleDwell,
+    #[serde(default)]
+    pub cycles: BTreeMap<String, Cycle>,
     pub spindle: Spindle,
     pub coolant: Coolant,
     pub stops: Stops,
@@ -163,6 +165,7 @@ pub struct Line {
     pub count_comments: bool,
     pub count_spaces: bool,
     pub separator: String,
+    pub continuation: String,
 }
 
 /// Which lines carry a number.
@@ -203,6 +206,8 @@ pub struct Numbers {
 pub struct Word {
     pub prefix: String,
     #[serde(default)]
+    pub suffix: String,
+    #[serde(default)]
     pub decimals: Option<ByUnit<u8>>,
     #[serde(default)]
     pub max: Option<ByUnit<f64>>,
@@ -224,6 +229,7 @@ pub struct Word {
 pub struct Modal {
     pub motion: bool,
     pub axes: bool,
+    pub arc_ends: bool,
     pub feed: bool,
 }
 
@@ -239,9 +245,14 @@ pub struct Codes {
     pub direction_cw: String,
     #[serde(default)]
     pub direction_ccw: String,
+    pub plane_xy: String,
+    pub plane_zx: String,
+    pub plane_yz: String,
     pub per_minute: String,
     pub per_revolution: String,
     pub inverse_time: String,
+    #[serde(default)]
+    pub insert: String,
 }
 
 #[derive(Debug, Clone, Deserialize)]
@@ -251,6 +262,10 @@ pub struct Patterns {
     pub rapid: Vec<String>,
     pub line: Vec<String>,
     pub arc: Vec<String>,
+    #[serde(default)]
+    pub helix: Vec<String>,
+    #[serde(default)]
+    pub hole: Vec<String>,
 }
 
 #[derive(Debug, Clone, Deserialize)]
@@ -260,16 +275,6 @@ pub struct Group {
     #[serde(default)]
     pub codes: Vec<String>,
     pub start: ByUnit<String>,
-}
-
-/// How a control takes an arc's centre.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-#[allow(missing_docs)]
-pub enum ArcForm {
-    Incremental,
-    Absolute,
-    Radius,
 }
 
 /// Which end words a full circle carries.
@@ -288,8 +293,9 @@ pub enum FullCircleWords {
 #[allow(missing_docs)]
 pub struct Arcs {
     pub enabled: bool,
-    pub form: ArcForm,
+    pub planes: Vec<String>,
     pub zero_offsets: String,
+    pub signed_radius: bool,
     pub full_circle: FullCircleWords,
     pub split: u8,
     pub max_sweep: f64,
@@ -304,6 +310,7 @@ pub struct Arcs {
 #[allow(missing_docs)]
 pub struct Feed {
     pub scale: ByUnit<f64>,
+    pub rapid: f64,
     pub per_revolution: bool,
     pub inverse_time: bool,
 }
@@ -312,7 +319,7 @@ pub struct Feed {
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 #[allow(missing_docs)]
 pub struct Rotary {
-    pub enabled: bool,
+    pub enabled: ByUnit<bool>,
     pub letter: String,
     pub letters: String,
     pub feed: String,
@@ -322,11 +329,55 @@ pub struct Rotary {
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 #[allow(missing_docs)]
 pub struct Dwell {
-    pub code: String,
-    pub word: String,
-    pub unit: String,
+    pub block: Vec<String>,
+    pub unit: DwellUnit,
     pub decimals: u8,
     pub max: f64,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct CycleDwell {
+    pub unit: DwellUnit,
+    pub decimals: u8,
+    pub max: f64,
+}
+
+/// What a dwell's number counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[allow(missing_docs)]
+pub enum DwellUnit {
+    #[serde(rename = "s")]
+    Seconds,
+    #[serde(rename = "ms")]
+    Milliseconds,
+    #[serde(rename = "0.01s")]
+    Hundredths,
+    /// A setting of the machine that the option `DWELL` declares.
+    #[serde(rename = "option")]
+    Declared,
+}
+
+/// A drilling cycle that the control keeps.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct Cycle {
+    #[serde(default)]
+    pub before: String,
+    #[serde(default)]
+    pub call: String,
+    #[serde(default)]
+    pub words: String,
+    #[serde(default)]
+    pub end: String,
+    #[serde(default = "yes")]
+    pub enabled: bool,
+}
+
+fn yes() -> bool {
+    true
 }
 
 #[derive(Debug, Clone, Deserialize)]
@@ -335,8 +386,10 @@ pub struct Dwell {
 pub struct Spindle {
     pub clockwise: String,
     pub counter_clockwise: String,
+    pub on: Vec<String>,
+    #[serde(default)]
+    pub after_tool_change: Vec<String>,
     pub off: String,
-    pub order: String,
 }
 
 #[derive(Debug, Clone, Deserialize)]
@@ -360,9 +413,8 @@ pub struct Stops {
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 #[allow(missing_docs)]
 pub struct PathControl {
-    pub exact: String,
-    pub tolerance: String,
-    pub after: String,
+    pub exact: Vec<String>,
+    pub tolerance: Vec<String>,
     pub share: f64,
 }
 
@@ -370,7 +422,11 @@ pub struct PathControl {
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 #[allow(missing_docs)]
 pub struct Nurbs {
-    pub form: String,
+    pub knots: String,
+    pub begin: Vec<String>,
+    pub point: Vec<String>,
+    pub rest: Vec<String>,
+    pub end: Vec<String>,
     pub weight_decimals: u8,
     pub knot_decimals: u8,
     pub max_order: u8,
@@ -409,7 +465,7 @@ pub struct Templates {
 }
 
 /// Words on the grid of the linear axes.
-const LINEAR_WORDS: [&str; 8] = ["x", "y", "z", "i", "j", "cx", "cy", "radius"];
+const LINEAR_WORDS: [&str; 10] = ["x", "y", "z", "i", "j", "k", "cx", "cy", "cz", "radius"];
 
 impl Spec {
     /// Decimals of a word in programs in `unit`; 0 where there is no such word.
@@ -424,6 +480,11 @@ impl Spec {
     pub fn range(&self, word: &str, unit: LengthUnit) -> i64 {
         let limit = self.words.get(word).and_then(|w| w.max).map_or(f64::INFINITY, |m| m.of(unit));
         super::number::steps(limit, self.decimals(word, unit)).unwrap_or(1_000_000_000_000_000)
+    }
+    /// The value of an option, whatever its case.
+    #[must_use]
+    pub fn option<'a>(options: &'a BTreeMap<String, String>, name: &str) -> Option<&'a str> {
+        options.iter().find(|(key, _)| key.eq_ignore_ascii_case(name)).map(|(_, value)| value.as_str())
     }
     /// Spelling of a word's number.
     #[must_use]

@@ -41,6 +41,10 @@ fn shape(shape: Shape) -> Value {
         Shape::IntegerByUnit(low, high) => by_unit(&integer(low, high)),
         Shape::NumberByUnit(low, high) => by_unit(&number(low, high)),
         Shape::TextByUnit => by_unit(&json!({ "type": "string" })),
+        Shape::FlagByUnit => by_unit(&json!({ "type": "boolean" })),
+        Shape::Choices(words) => {
+            json!({ "type": "array", "items": { "type": "string", "enum": words }, "uniqueItems": true })
+        }
         Shape::Choice(words) => json!({ "type": "string", "enum": words }),
         Shape::TextList => texts(),
         Shape::TextLists => json!({ "type": "array", "items": texts() }),

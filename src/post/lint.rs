@@ -4,16 +4,16 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::Dialect;
-use super::check::{at, first_byte, templates};
-use super::dialect::{ArcForm, FullCircleWords};
+use super::check::{at, first_byte, patterns, templates};
 use super::load::{builtin_text, is_own, name_builtins};
 use super::template::Renderer;
 use super::tree;
-use super::variables::{self, Scope};
+use super::variables;
 use crate::diag::codes::tools as codes;
 use crate::diag::{Diagnostic, did_you_mean};
 use crate::readback;
 use crate::source::SourceMap;
+use crate::units::LengthUnit;
 
 /// Every finding; files that messages point into are added to `sources`.
 #[must_use]
@@ -60,13 +60,12 @@ impl Lint<'_> {
     /// Variables that no program will ever define.
     fn variables(&mut self) {
         let renderer = Renderer::new(&self.dialect.spec.comments);
-        for (path, template) in templates(self.dialect) {
-            let known: Vec<&str> = variables::of(scope(&path)).collect();
+        for (path, scope, template) in templates(self.dialect) {
             for name in renderer.variables(template) {
-                let first = name.split('.').next().unwrap_or(&name);
-                if known.contains(&name.as_str()) || (first == "options" && self.has_option(&name)) {
+                if variables::is_known(&name, scope) || self.has_option(&name) {
                     continue;
                 }
+                let known: Vec<&str> = variables::of(scope).collect();
                 let finding = unknown_variable(self.dialect, &path, &name, &known);
                 self.findings.push(shortened(finding));
             }
@@ -93,15 +92,17 @@ impl Lint<'_> {
     /// Words that nothing prints.
     fn words(&mut self) {
         let spec = &self.dialect.spec;
-        let patterns = [&spec.patterns.rapid, &spec.patterns.line, &spec.patterns.arc];
-        let printed: BTreeSet<&str> = patterns.into_iter().flatten().map(String::as_str).collect();
+        let printed: BTreeSet<&str> = patterns(self.dialect)
+            .into_iter()
+            .flat_map(|(_, _, items)| items)
+            .map(String::as_str)
+            .collect();
         let slots: Vec<&str> = super::pattern::Slot::ALL.iter().map(|s| s.name()).collect();
         let built_in = base_words();
         for name in spec.words.keys() {
             let path = format!("words.{name}");
-            let named = [&spec.dwell.word, &spec.cycle_dwell.word].contains(&name);
             let of_motion = slots.contains(&name.as_str());
-            let used = printed.contains(name.as_str()) || named || (!of_motion && built_in.contains(name));
+            let used = printed.contains(name.as_str()) || (!of_motion && built_in.contains(name));
             if used || !self.own(&path) {
                 continue;
             }
@@ -118,7 +119,7 @@ impl Lint<'_> {
     fn options(&mut self) {
         let renderer = Renderer::new(&self.dialect.spec.comments);
         let read: BTreeSet<String> =
-            templates(self.dialect).into_iter().flat_map(|(_, t)| renderer.variables(t)).collect();
+            templates(self.dialect).into_iter().flat_map(|(_, _, t)| renderer.variables(t)).collect();
         if read.contains("options") {
             return;
         }
@@ -136,26 +137,11 @@ impl Lint<'_> {
             return;
         }
         let has = |item: &str| spec.patterns.arc.iter().any(|i| i == item);
-        let (form, wanted): (&str, &[&str]) = match spec.arcs.form {
-            ArcForm::Incremental => ("incremental", &["i", "j"]),
-            ArcForm::Absolute => ("absolute", &["cx", "cy"]),
-            ArcForm::Radius => ("radius", &["radius"]),
-        };
-        let missing: Vec<String> = wanted.iter().filter(|w| !has(w)).map(|w| format!("`{w}`")).collect();
-        if !missing.is_empty() {
-            let message =
-                format!("arcs of the form \"{form}\" need {} in `patterns.arc`", missing.join(" and "));
-            self.inexpressible("patterns.arc", message);
-        }
         let by_motion = has("motion") && spec.codes.arc_cw != spec.codes.arc_ccw;
         let by_direction = has("direction") && spec.codes.direction_cw != spec.codes.direction_ccw;
         if !by_motion && !by_direction {
             let message = "clockwise and counter-clockwise arcs are printed alike".to_owned();
             self.inexpressible("patterns.arc", message);
-        }
-        if spec.arcs.form == ArcForm::Radius && spec.arcs.full_circle != FullCircleWords::Split {
-            let message = "a radius cannot say where the centre of a full circle is; `arcs.full-circle` must be \"split\"";
-            self.inexpressible("arcs.full-circle", message.to_owned());
         }
     }
 
@@ -182,7 +168,8 @@ impl Lint<'_> {
                 self.inexpressible(&path, message);
             }
         }
-        if spec.rotary.enabled && !has("rotary") {
+        let units = [LengthUnit::Millimetre, LengthUnit::Inch];
+        if units.iter().any(|u| spec.rotary.enabled.of(*u)) && !has("rotary") {
             let message = "`rotary.enabled` is true, but `patterns.line` has no word `rotary`".to_owned();
             self.inexpressible("rotary.enabled", message);
         }
@@ -215,7 +202,8 @@ impl Lint<'_> {
             let message = format!("moves at rapid and at feed are both printed with `{}`", spec.codes.line);
             self.alike("codes.rapid", message);
         }
-        if spec.spindle.clockwise == spec.spindle.counter_clockwise && spec.spindle.order != "speed-only" {
+        let says_sense = spec.spindle.on.iter().any(|item| item == "code");
+        if spec.spindle.clockwise == spec.spindle.counter_clockwise && says_sense {
             let message = format!("both senses of the spindle are `{}`", spec.spindle.clockwise);
             self.alike("spindle.counter-clockwise", message);
         }
@@ -228,15 +216,6 @@ impl Lint<'_> {
                 }
             }
         }
-    }
-}
-
-/// Where a template runs.
-fn scope(path: &str) -> Scope {
-    match path {
-        "templates.operation" => Scope::Operation,
-        _ if path.starts_with("tool-change.") => Scope::ToolChange,
-        _ => Scope::Everywhere,
     }
 }
 

@@ -8,14 +8,20 @@ use crate::source::{FileError, FileId, FileProvider, SourceMap, Span};
 
 /// The built-in post files, by name.
 const BUILTIN: &[(&str, &str)] = &[
+    ("centroid", include_str!("dialects/centroid.post.toml")),
     ("fanuc", include_str!("dialects/fanuc.post.toml")),
     ("grbl", include_str!("dialects/grbl.post.toml")),
     ("grblhal", include_str!("dialects/grblhal.post.toml")),
     ("haas", include_str!("dialects/haas.post.toml")),
+    ("heidenhain", include_str!("dialects/heidenhain.post.toml")),
     ("iso", include_str!("dialects/iso.post.toml")),
     ("linuxcnc", include_str!("dialects/linuxcnc.post.toml")),
+    ("mach3", include_str!("dialects/mach3.post.toml")),
+    ("marlin", include_str!("dialects/marlin.post.toml")),
     ("mazak", include_str!("dialects/mazak.post.toml")),
     ("mitsubishi", include_str!("dialects/mitsubishi.post.toml")),
+    ("okuma", include_str!("dialects/okuma.post.toml")),
+    ("sinumerik", include_str!("dialects/sinumerik.post.toml")),
 ];
 
 /// Longest chain of `inherits`.

@@ -11,12 +11,16 @@
 
 mod check;
 pub mod comment;
+mod context;
+mod curves;
+mod cycles;
 pub mod dialect;
 mod events;
 mod inspect;
 mod json_schema;
 mod lint;
 mod load;
+mod motion;
 pub mod number;
 pub mod pattern;
 pub mod schema;

@@ -8,6 +8,8 @@ pub enum Shape {
     Text,
     /// `true` or `false`.
     Flag,
+    /// `true` or `false`, or one each for mm and inch.
+    FlagByUnit,
     /// An integer in a range.
     Integer(i64, i64),
     /// A number in a range.
@@ -20,6 +22,8 @@ pub enum Shape {
     TextByUnit,
     /// One of these words.
     Choice(&'static [&'static str]),
+    /// A list of these words.
+    Choices(&'static [&'static str]),
     /// A list of texts.
     TextList,
     /// A list of lists of texts.
@@ -75,7 +79,12 @@ pub const ROOT: &[Key] = &[
     key("feed", Shape::Table(FEED), "feeds"),
     key("rotary", Shape::Table(ROTARY), "rotary table"),
     key("dwell", Shape::Table(DWELL), "dwell in a block of its own"),
-    key("cycle-dwell", Shape::Table(DWELL), "dwell inside drilling cycles"),
+    key("cycle-dwell", Shape::Table(CYCLE_DWELL), "dwell inside drilling cycles"),
+    key(
+        "cycles",
+        Shape::Tables(CYCLE),
+        "drilling cycles that the control keeps, by kind; others become moves",
+    ),
     key("spindle", Shape::Table(SPINDLE), "spindle"),
     key("coolant", Shape::Table(COOLANT), "coolant"),
     key("stops", Shape::Table(STOPS), "program stops"),
@@ -114,6 +123,11 @@ const LINE: &[Key] = &[
     key("count-comments", Shape::Flag, "comments count for `max-length`"),
     key("count-spaces", Shape::Flag, "spaces count for `max-length`"),
     key("separator", Shape::Text, "between the words of a block"),
+    key(
+        "continuation",
+        Shape::Text,
+        "at the end of a line: the block goes on in the next one, which gets no number; empty: there is none",
+    ),
 ];
 const NUMBERING: &[Key] = &[
     key(
@@ -130,7 +144,7 @@ const NUMBERS: &[Key] = &[
     key(
         "linear-decimals",
         Shape::IntegerByUnit(0, 9),
-        "decimals of x, y, z, i, j, cx, cy and radius, unless the word says otherwise",
+        "decimals of x, y, z, i, j, k, cx, cy, cz and radius, unless the word says otherwise",
     ),
     key("point", Shape::Choice(&["needed", "always", "digit"]), "`5`, `5.` or `5.0`"),
     key("trailing-zeros", Shape::Flag, "`5.250`"),
@@ -139,6 +153,7 @@ const NUMBERS: &[Key] = &[
 ];
 const WORD: &[Key] = &[
     key("prefix", Shape::Text, "what stands before the number: `X`, `CR=`"),
+    key("suffix", Shape::Text, "what stands after it: `)` with the prefix `I=AC(`"),
     key(
         "decimals",
         Shape::IntegerByUnit(0, 9),
@@ -154,6 +169,7 @@ const WORD: &[Key] = &[
 const MODAL: &[Key] = &[
     key("motion", Shape::Flag, "motion codes"),
     key("axes", Shape::Flag, "axis words"),
+    key("arc-ends", Shape::Flag, "the end words of arcs"),
     key("feed", Shape::Flag, "feed"),
 ];
 const CODES: &[Key] = &[
@@ -163,18 +179,24 @@ const CODES: &[Key] = &[
     key("arc-ccw", Shape::Text, "counter-clockwise"),
     key("direction-cw", Shape::Text, "the pattern item `direction` of a clockwise arc"),
     key("direction-ccw", Shape::Text, "the pattern item `direction` of a counter-clockwise arc"),
+    key("plane-xy", Shape::Text, "the pattern item `plane` of an arc in the XY plane"),
+    key("plane-zx", Shape::Text, "the same in the ZX plane; empty: the control has none"),
+    key("plane-yz", Shape::Text, "the same in the YZ plane; empty: the control has none"),
     key("per-minute", Shape::Text, "feed per minute"),
     key("per-revolution", Shape::Text, "feed per revolution"),
     key("inverse-time", Shape::Text, "inverse time feed"),
+    key("insert", Shape::Text, "before the text of INSERT"),
 ];
 const PATTERNS: &[Key] = &[
     key(
         "rapid",
         Shape::TextList,
-        "straight at rapid: names of words, `motion`, `feed-mode`, `direction`, `/` for a new line, `=TEXT` as it is",
+        "straight at rapid: names of words, `motion`, `/` for a new line, `=TEXT` as it is",
     ),
     key("line", Shape::TextList, "straight at feed"),
-    key("arc", Shape::TextList, "arc and helix"),
+    key("arc", Shape::TextList, "arc, and helix unless that has its own pattern"),
+    key("helix", Shape::TextList, "helix, where it is spelled unlike an arc"),
+    key("hole", Shape::TextList, "a hole of a drilling cycle"),
 ];
 const GROUP: &[Key] = &[
     key("codes", Shape::TextList, "all codes of the group that programs may use"),
@@ -186,11 +208,7 @@ const GROUP: &[Key] = &[
 ];
 const ARCS: &[Key] = &[
     key("enabled", Shape::Flag, "the control has circular interpolation"),
-    key(
-        "form",
-        Shape::Choice(&["incremental", "absolute", "radius"]),
-        "centre from the start, centre in program coordinates, or radius",
-    ),
+    key("planes", Shape::Choices(&["xy", "zx", "yz"]), "planes of arcs; arcs elsewhere become lines"),
     key(
         "zero-offsets",
         Shape::Choice(&["keep", "drop"]),
@@ -201,6 +219,7 @@ const ARCS: &[Key] = &[
         Shape::Choice(&["bare", "one-end-word", "end-words", "split"]),
         "end words of a full circle: none, one, both; or no full circles",
     ),
+    key("signed-radius", Shape::Flag, "the word `radius` is negative for more than half a turn"),
     key("split", Shape::Integer(2, 16), "arcs a full circle is split in where the control has none"),
     key("max-sweep", Shape::Number(1.0, 360.0), "degrees in one block"),
     key("min-radius", Shape::Number(0.0, 1e6), "mm; smaller arcs become lines"),
@@ -214,11 +233,16 @@ const ARCS: &[Key] = &[
 ];
 const FEED: &[Key] = &[
     key("scale", Shape::NumberByUnit(0.001, 1000.0), "what is printed for one output unit a minute"),
+    key(
+        "rapid",
+        Shape::Number(0.0, 1e6),
+        "mm/min of the word `feed` in rapid moves, for a control whose G0 goes at F; 0: it does not",
+    ),
     key("per-revolution", Shape::Flag, "the control has feed per revolution"),
     key("inverse-time", Shape::Flag, "the control has inverse time feed"),
 ];
 const ROTARY: &[Key] = &[
-    key("enabled", Shape::Flag, "a rotary axis is possible"),
+    key("enabled", Shape::FlagByUnit, "a rotary axis is possible"),
     key("letter", Shape::Text, "the usual letter"),
     key("letters", Shape::Text, "the letters that are possible"),
     key(
@@ -227,22 +251,37 @@ const ROTARY: &[Key] = &[
         "what F means when a linear and the rotary axis move together",
     ),
 ];
+const DWELL_UNITS: Shape = Shape::Choice(&["s", "ms", "0.01s", "option"]);
+const DWELL_UNIT_DOC: &str =
+    "unit of the number; `option`: a setting of the machine, which the option `DWELL` declares as `s` or `ms`";
 const DWELL: &[Key] = &[
-    key("code", Shape::Text, "before the time"),
-    key("word", Shape::Text, "the word that carries the time"),
-    key("unit", Shape::Choice(&["s", "ms", "0.01s"]), "unit of the number"),
+    key("block", Shape::TextList, "what a dwell prints, with the word `dwell`"),
+    key("unit", DWELL_UNITS, DWELL_UNIT_DOC),
     key("decimals", Shape::Integer(0, 6), "decimals of the number"),
     key("max", Shape::Number(0.0, 1e9), "longest, seconds"),
 ];
+const CYCLE_DWELL: &[Key] = &[
+    key("unit", DWELL_UNITS, DWELL_UNIT_DOC),
+    key("decimals", Shape::Integer(0, 6), "decimals of the number"),
+    key("max", Shape::Number(0.0, 1e9), "longest, seconds"),
+];
+const CYCLE: &[Key] = &[
+    key("before", Shape::Text, "template of the lines before the first hole"),
+    key("call", Shape::Text, "template of the pattern item `cycle` of the first hole"),
+    key("words", Shape::Text, "template of the pattern item `cycle-words` of the first hole"),
+    key("end", Shape::Text, "template of the lines after the last hole"),
+    key("enabled", Shape::Flag, "`false`: the parent's control keeps it, this one does not"),
+];
 const SPINDLE: &[Key] = &[
-    key("clockwise", Shape::Text, "on, clockwise"),
-    key("counter-clockwise", Shape::Text, "on, counter-clockwise"),
-    key("off", Shape::Text, "off"),
+    key("clockwise", Shape::Text, "the code that turns it clockwise"),
+    key("counter-clockwise", Shape::Text, "the code that turns it counter-clockwise"),
+    key("on", Shape::TextList, "what turning it on prints: `spindle` is the speed, `code` the direction"),
     key(
-        "order",
-        Shape::Choice(&["speed-first", "code-first", "speed-only"]),
-        "`S1000 M3`, `M3 S1000` or the speed alone",
+        "after-tool-change",
+        Shape::TextList,
+        "the same, where the tool change has said the speed already; empty: as `on`",
     ),
+    key("off", Shape::Text, "off"),
 ];
 const COOLANT: &[Key] = &[
     key("flood", Shape::Text, "flood on; empty: the control has none"),
@@ -267,9 +306,12 @@ const COMMENTS: &[Key] = &[
     key("active-words", Shape::TextList, "words that the control would obey at the start of a comment"),
 ];
 const PATH_CONTROL: &[Key] = &[
-    key("exact", Shape::Text, "exact path; empty: nothing to say"),
-    key("tolerance", Shape::Text, "before the path tolerance; empty: the control has none"),
-    key("after", Shape::Text, "after the path tolerance"),
+    key("exact", Shape::TextList, "exact path; empty: nothing to say"),
+    key(
+        "tolerance",
+        Shape::TextList,
+        "the control's own tolerance, with the word `path-tolerance`; empty: the control has none",
+    ),
     key(
         "share",
         Shape::Number(0.0, 0.9),
@@ -277,7 +319,15 @@ const PATH_CONTROL: &[Key] = &[
     ),
 ];
 const NURBS: &[Key] = &[
-    key("form", Shape::Choice(&["none", "g06.2", "g5.2"]), "spelling"),
+    key(
+        "knots",
+        Shape::Choice(&["none", "printed", "uniform"]),
+        "no curves; knots are printed; or they are 0, 0, 0, 0, 1, 2, … and not printed",
+    ),
+    key("begin", Shape::TextList, "first block, with the first control point, where the curve starts"),
+    key("point", Shape::TextList, "block of every further control point"),
+    key("rest", Shape::TextList, "block of every knot after those of the points"),
+    key("end", Shape::TextList, "after the curve"),
     key("weight-decimals", Shape::Integer(0, 9), "decimals of weights"),
     key("knot-decimals", Shape::Integer(0, 9), "decimals of knots"),
     key("max-order", Shape::Integer(2, 6), "largest degree + 1"),

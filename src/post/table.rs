@@ -1,7 +1,7 @@
 //! The flat tables the writer runs on, compiled from a dialect for one program.
 
-use super::dialect::{ArcForm, Dialect, FullCircleWords, NumberingMode, Spec};
-use super::number::Style;
+use super::dialect::{Dialect, FullCircleWords, NumberingMode, Spec};
+use super::number::{self, Style};
 use super::pattern::{Item, SLOTS, Slot};
 use crate::target::Capabilities;
 use crate::units::LengthUnit;
@@ -10,6 +10,7 @@ use crate::units::LengthUnit;
 #[derive(Debug, Clone, Default)]
 pub(super) struct WordFormat {
     pub prefix: Box<[u8]>,
+    pub suffix: Box<[u8]>,
     pub style: Style,
     pub modal: bool,
 }
@@ -25,24 +26,39 @@ pub(super) const LINE: usize = 1;
 pub(super) const ARC_CW: usize = 2;
 pub(super) const ARC_CCW: usize = 3;
 
+/// Patterns as indices.
+pub(super) const RAPID_PATTERN: usize = 0;
+pub(super) const LINE_PATTERN: usize = 1;
+pub(super) const ARC_PATTERN: usize = 2;
+pub(super) const HELIX_PATTERN: usize = 3;
+pub(super) const HOLE_PATTERN: usize = 4;
+const PATTERNS: usize = 5;
+
 /// Everything a motion block needs.
 #[derive(Debug, Clone)]
 pub(super) struct MotionTable {
     pub words: [WordFormat; SLOTS],
     pub feeds: [WordFormat; 3],
-    pub patterns: [Box<[Item]>; 3],
+    pub patterns: [Box<[Item]>; PATTERNS],
+    /// For every pattern, whether it prints where the block ends; the control knows it only then to the step.
+    pub says_end: [bool; PATTERNS],
     pub codes: [Box<[u8]>; 4],
     pub directions: [Box<[u8]>; 2],
+    pub planes: [Box<[u8]>; 3],
     pub modes: [Box<[u8]>; 3],
     pub modal_motion: bool,
-    pub form: ArcForm,
+    pub modal_arc_ends: bool,
     pub drop_zero: bool,
+    pub signed_radius: bool,
     pub full_circle: FullCircleWords,
+    /// F of rapid moves, in steps, where they need one.
+    pub rapid_feed: Option<i64>,
     /// Steps of centre words in one step of linear words.
     pub centre_per_linear: i64,
     pub separator: Box<[u8]>,
     pub newline: &'static [u8],
     pub numbering: NumberingMode,
+    pub continuation: Box<[u8]>,
 }
 
 impl MotionTable {
@@ -59,24 +75,44 @@ impl MotionTable {
         }
         let codes = &spec.codes;
         let bytes = |text: &str| -> Box<[u8]> { text.as_bytes().into() };
+        let patterns = patterns(spec);
         MotionTable {
             words,
             feeds: ["feed", "feed-per-revolution", "feed-inverse-time"]
                 .map(|name| word(spec, name, spec.modal.feed, unit)),
-            patterns: [&spec.patterns.rapid, &spec.patterns.line, &spec.patterns.arc].map(|p| items(p)),
+            says_end: core::array::from_fn(|i| {
+                i <= LINE_PATTERN || patterns[i].contains(&Item::Word(Slot::X))
+            }),
+            patterns,
             codes: [&codes.rapid, &codes.line, &codes.arc_cw, &codes.arc_ccw].map(|c| bytes(c)),
             directions: [bytes(&codes.direction_cw), bytes(&codes.direction_ccw)],
+            planes: [&codes.plane_xy, &codes.plane_zx, &codes.plane_yz].map(|c| bytes(c)),
             modes: [bytes(&codes.per_minute), bytes(&codes.per_revolution), bytes(&codes.inverse_time)],
             modal_motion: spec.modal.motion,
-            form: spec.arcs.form,
+            modal_arc_ends: spec.modal.arc_ends,
             drop_zero: spec.arcs.zero_offsets == "drop",
+            signed_radius: spec.arcs.signed_radius,
             full_circle: spec.arcs.full_circle,
+            rapid_feed: rapid_feed(spec, capabilities),
             centre_per_linear: centre_per_linear(capabilities),
             separator: bytes(&spec.line.separator),
             newline: if spec.file.newline == "crlf" { b"\r\n" } else { b"\n" },
             numbering: spec.numbering.mode,
+            continuation: bytes(&spec.line.continuation),
         }
     }
+}
+
+fn patterns(spec: &Spec) -> [Box<[Item]>; PATTERNS] {
+    let patterns = &spec.patterns;
+    let helix = if patterns.helix.is_empty() { &patterns.arc } else { &patterns.helix };
+    [&patterns.rapid, &patterns.line, &patterns.arc, helix, &patterns.hole].map(|p| Item::all(p))
+}
+
+fn rapid_feed(spec: &Spec, capabilities: &Capabilities) -> Option<i64> {
+    let grid = &capabilities.grid;
+    let value = spec.feed.rapid / grid.unit.in_mm() * grid.feed_scale;
+    number::steps(value, grid.feed_decimals).filter(|steps| *steps > 0)
 }
 
 fn centre_per_linear(capabilities: &Capabilities) -> i64 {
@@ -89,19 +125,22 @@ fn axis_modal(spec: &Spec, slot: Slot) -> bool {
     match slot {
         Slot::X | Slot::Y | Slot::Z | Slot::Rotary => spec.modal.axes,
         Slot::Feed => spec.modal.feed,
-        Slot::I | Slot::J | Slot::Cx | Slot::Cy | Slot::Radius => false,
+        Slot::I
+        | Slot::J
+        | Slot::K
+        | Slot::Cx
+        | Slot::Cy
+        | Slot::Cz
+        | Slot::Radius
+        | Slot::Sweep => false,
     }
 }
 
 pub(super) fn word(spec: &Spec, name: &str, modal: bool, unit: LengthUnit) -> WordFormat {
     spec.words.get(name).map_or_else(WordFormat::default, |word| WordFormat {
         prefix: word.prefix.as_bytes().into(),
+        suffix: word.suffix.as_bytes().into(),
         style: spec.style(name, word, unit),
         modal: word.modal.unwrap_or(modal),
     })
-}
-
-/// Items were checked when the dialect was loaded.
-fn items(pattern: &[String]) -> Box<[Item]> {
-    pattern.iter().filter_map(|item| Item::parse(item)).collect()
 }

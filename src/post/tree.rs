@@ -196,6 +196,7 @@ fn check_by_unit(entry: &Entry, table: &Table, shape: Shape, path: &str, errors:
         Shape::IntegerByUnit(low, high) => Shape::Integer(low, high),
         Shape::NumberByUnit(low, high) => Shape::Number(low, high),
         Shape::TextByUnit => Shape::Text,
+        Shape::FlagByUnit => Shape::Flag,
         _ => {
             errors.push(Diagnostic::new(
                 &codes::post::WRONG_VALUE,
@@ -228,7 +229,7 @@ fn check_by_unit(entry: &Entry, table: &Table, shape: Shape, path: &str, errors:
 fn check_leaf(value: &toml::Value, shape: Shape) -> Result<(), String> {
     let fits = match (shape, value) {
         (Shape::Text | Shape::TextByUnit, toml::Value::String(_))
-        | (Shape::Flag, toml::Value::Boolean(_)) => true,
+        | (Shape::Flag | Shape::FlagByUnit, toml::Value::Boolean(_)) => true,
         (Shape::Integer(low, high) | Shape::IntegerByUnit(low, high), toml::Value::Integer(n)) => {
             (low..=high).contains(n)
         }
@@ -236,6 +237,12 @@ fn check_leaf(value: &toml::Value, shape: Shape) -> Result<(), String> {
             number(value).is_some_and(|n| (low..=high).contains(&n))
         }
         (Shape::Choice(words), toml::Value::String(text)) => return check_choice(words, text),
+        (Shape::Choices(words), toml::Value::Array(items)) => {
+            return items.iter().try_for_each(|item| match item {
+                toml::Value::String(text) => check_choice(words, text),
+                _ => Err(describe(shape)),
+            });
+        }
         (Shape::TextList, toml::Value::Array(items)) => items.iter().all(toml::Value::is_str),
         (Shape::TextLists, toml::Value::Array(items)) => items
             .iter()
@@ -291,7 +298,9 @@ pub fn describe(shape: Shape) -> String {
             format!("a number from {low} to {high}, or one each for `mm` and `inch`")
         }
         Shape::TextByUnit => "a text, or one each for `mm` and `inch`".into(),
+        Shape::FlagByUnit => "`true` or `false`, or one each for `mm` and `inch`".into(),
         Shape::Choice(_) => "one of \"".into(),
+        Shape::Choices(words) => format!("a list of \"{}\"", words.join("\", \"")),
         Shape::TextList => "a list of texts".into(),
         Shape::TextLists => "a list of lists of texts".into(),
         Shape::Range => "a list of two numbers, the smaller first".into(),

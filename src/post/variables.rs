@@ -1,65 +1,85 @@
-//! The variables of templates: one table for checking post files and for their documentation.
+//! The variables of templates: one table that checking, «did you mean» and the documentation read.
+
+/// Which templates can read a variable.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Scope {
+    /// All of them; header and footer read nothing else.
+    Everywhere,
+    /// Start of an operation.
+    Operation,
+    /// Blocks of a tool change.
+    ToolChange,
+    /// Drilling cycles.
+    Cycle,
+}
 
 /// A variable.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Variable {
-    /// Its name, with a point where it is a member.
+    /// Dotted name.
     pub name: &'static str,
-    /// Which templates have it.
+    /// Where it can be read.
     pub scope: Scope,
+    /// What it is.
+    pub doc: &'static str,
 }
 
-/// Where a variable exists.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Scope {
-    /// In all templates.
-    Everywhere,
-    /// In the blocks of a tool change and `with-first-z`.
-    ToolChange,
-    /// In the template at the start of an operation.
-    Operation,
+const fn row(scope: Scope, name: &'static str, doc: &'static str) -> Variable {
+    Variable { name, scope, doc }
 }
 
-/// All variables but the members of `options`, which a post names itself.
+use Scope::{Cycle, Operation, Everywhere, ToolChange};
+
+/// All variables; `options.NAME` besides, for every name in `[options]`.
 pub const VARIABLES: &[Variable] = &[
-    everywhere("post"),
-    everywhere("post.name"),
-    everywhere("post.title"),
-    everywhere("program"),
-    everywhere("program.title"),
-    everywhere("program.name"),
-    everywhere("program.number"),
-    everywhere("program.units"),
-    everywhere("tools"),
-    everywhere("rotary"),
-    everywhere("safe_start"),
-    everywhere("options"),
-    everywhere("spindle_on"),
-    everywhere("coolant_on"),
-    tool_change("tool"),
-    tool_change("tool.number"),
-    tool_change("tool.name"),
-    tool_change("tool.kind"),
-    tool_change("tool.diameter"),
-    tool_change("tool.corner"),
-    tool_change("tool.text"),
-    tool_change("first"),
-    tool_change("spindle"),
-    tool_change("spindle.rpm"),
-    tool_change("spindle.code"),
-    Variable { name: "operation", scope: Scope::Operation },
-    Variable { name: "operation.name", scope: Scope::Operation },
+    row(Everywhere, "post.name", "name of the post"),
+    row(Everywhere, "post.title", "`post.title`"),
+    row(Everywhere, "program.title", "`PARTNO`, made harmless for comments; empty when there is none"),
+    row(Everywhere, "program.name", "its letters and digits, upper case, at most `file.name-max`; `PART` without any"),
+    row(Everywhere, "program.number", "`file.number`"),
+    row(Everywhere, "program.units", "`mm` or `inch`"),
+    row(Everywhere, "tools", "all tools, each as `tool` in tool changes"),
+    row(Everywhere, "rotary", "letter of the rotary axis, or none"),
+    row(Everywhere, "safe_start", "start codes of all groups in `safe-start`, line by line"),
+    row(Everywhere, "spindle_on", "whether the spindle turns here"),
+    row(Everywhere, "coolant_on", "whether coolant flows here"),
+    row(Operation, "operation.name", "name of the operation, made harmless for comments"),
+    row(ToolChange, "tool.number", "number of the tool, 0 without one"),
+    row(ToolChange, "tool.name", "name of the tool, made harmless for comments"),
+    row(ToolChange, "tool.kind", "`flat`, `ball`, `bull` or `taper`"),
+    row(ToolChange, "tool.diameter", "diameter in the program's unit"),
+    row(ToolChange, "tool.corner", "corner radius in the program's unit"),
+    row(ToolChange, "tool.text", "number, name, kind and diameter in one line"),
+    row(ToolChange, "first", "whether it is the first tool of the program"),
+    row(ToolChange, "spindle.rpm", "speed of the spindle command that follows, 0 without one"),
+    row(ToolChange, "spindle.code", "its code, empty without one"),
+    row(Cycle, "cycle.kind", "kind of the cycle: `drill`, `deep` …"),
+    row(Cycle, "cycle.z", "bottom of the hole"),
+    row(Cycle, "cycle.r", "clearance level"),
+    row(Cycle, "cycle.surface", "surface that depth and clearance count from"),
+    row(Cycle, "cycle.initial", "height at which the cycle begins"),
+    row(Cycle, "cycle.after", "height to which the tool goes after each hole: `r` or `initial`"),
+    row(Cycle, "cycle.depth", "surface to bottom, positive"),
+    row(Cycle, "cycle.clearance", "surface to clearance level"),
+    row(Cycle, "cycle.above", "surface to the height at which the cycle begins"),
+    row(Cycle, "cycle.peck", "largest depth of one peck; empty without one"),
+    row(Cycle, "cycle.shift", "move off the wall of an oriented boring cycle; empty in others"),
+    row(Cycle, "cycle.pitch", "pitch of a thread; empty in other cycles"),
+    row(Cycle, "cycle.dwell", "dwell at the bottom, in the unit of `[cycle-dwell]`; empty without one"),
+    row(Cycle, "cycle.feed", "feed into the hole, as the feed word spells it"),
+    row(Cycle, "cycle.retract", "`clearance` or `initial`"),
+    row(Cycle, "cycle.rpm", "speed of the spindle"),
 ];
 
-const fn everywhere(name: &'static str) -> Variable {
-    Variable { name, scope: Scope::Everywhere }
-}
-
-const fn tool_change(name: &'static str) -> Variable {
-    Variable { name, scope: Scope::ToolChange }
-}
-
-/// The variables of templates with this scope.
+/// The variables of templates with this scope, and the tables that hold them.
 pub fn of(scope: Scope) -> impl Iterator<Item = &'static str> {
-    VARIABLES.iter().filter(move |v| v.scope == Scope::Everywhere || v.scope == scope).map(|v| v.name)
+    let known = VARIABLES.iter().filter(move |v| v.scope == Scope::Everywhere || v.scope == scope);
+    known.map(|v| v.name).chain(["options"])
+}
+
+/// Whether a name is a variable of this scope, or a table of some.
+#[must_use]
+pub fn is_known(name: &str, scope: Scope) -> bool {
+    let table = |known: &str| known.strip_prefix(name).is_some_and(|rest| rest.starts_with('.'));
+    of(scope).any(|known| known == name || table(known))
 }

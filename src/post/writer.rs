@@ -3,21 +3,13 @@
 //! Motion runs on [`MotionTable`]: integers to digits, modality by comparing the integers that are printed.
 //! Everything else is cold and goes through words or templates.
 
-use super::dialect::{ArcForm, Dialect, FullCircleWords, NumberingMode};
+use super::dialect::{Dialect, NumberingMode};
 use super::number;
-use super::pattern::{Item, Slot};
-use super::table::{
-    ARC_CCW, ARC_CW, INVERSE_TIME, LINE, MotionTable, PER_MINUTE, PER_REVOLUTION, RAPID, WordFormat,
-};
+use super::table::{INVERSE_TIME, MotionTable, PER_MINUTE, PER_REVOLUTION, WordFormat};
 use crate::arena::Handle;
 use crate::diag::Diagnostic;
 use crate::ir::Origin;
-use crate::target::{FeedWord, Motion, Position, axes};
-
-/// Which pattern a motion takes.
-const RAPID_PATTERN: usize = 0;
-const LINE_PATTERN: usize = 1;
-const ARC_PATTERN: usize = 2;
+use crate::target::{FeedWord, Position};
 
 /// What the control remembers, as far as what was printed tells.
 #[derive(Debug, Clone, Default)]
@@ -30,6 +22,8 @@ pub(super) struct ModalState {
     pub mode: Option<usize>,
     /// Feed in that mode.
     pub feed: Option<i64>,
+    /// Plane of arcs.
+    pub plane: Option<usize>,
     /// Path tolerance in steps; `Some(None)`: exact path.
     pub path: Option<Option<i64>>,
 }
@@ -52,12 +46,17 @@ pub(super) struct Writer<'a> {
     pub position: Position,
     /// Words that wait for the first block that moves Z.
     pub with_first_z: Vec<u8>,
+    /// Call and words of a drilling cycle that wait for its first hole.
+    pub cycle: [Vec<u8>; 2],
     /// Start of the current line in `out`, and of its words after a block number.
     line_start: usize,
-    words_start: usize,
+    pub words_start: usize,
+    /// The line before said that its block goes on.
+    continued: bool,
     /// Lines finished.
     pub line: u32,
     next_number: u32,
+    last_number: u32,
     limit: usize,
     pub origin: Handle<Origin>,
     pub faults: Vec<LineFault>,
@@ -79,10 +78,13 @@ impl<'a> Writer<'a> {
             state: ModalState::default(),
             position: Position::default(),
             with_first_z: Vec::new(),
+            cycle: [Vec::new(), Vec::new()],
+            continued: false,
             line_start: 0,
             words_start: 0,
             line: 0,
             next_number: dialect.spec.numbering.start,
+            last_number: dialect.spec.numbering.start,
             limit: if limit == 0 { usize::MAX } else { limit },
             origin,
             faults: Vec::new(),
@@ -94,7 +96,7 @@ impl<'a> Writer<'a> {
     pub fn begin_line(&mut self, numbered: bool) {
         self.line_start = self.out.len();
         self.words_start = self.line_start;
-        if numbered && self.table.numbering != NumberingMode::None {
+        if numbered && self.table.numbering != NumberingMode::None && !self.continued {
             self.block_number();
         }
     }
@@ -105,6 +107,7 @@ impl<'a> Writer<'a> {
         number::push(&mut self.out, i64::from(self.next_number), &number::Style::default());
         self.out.push(b' ');
         self.words_start = self.out.len();
+        self.last_number = self.next_number;
         self.next_number = self.next_number.saturating_add(rules.step);
         if self.next_number > rules.max {
             self.next_number = rules.start;
@@ -114,14 +117,25 @@ impl<'a> Writer<'a> {
     /// Ends a line that has words; takes back one that has none.
     pub fn end_line(&mut self) {
         if self.out.len() == self.words_start {
-            self.out.truncate(self.line_start);
+            self.take_back();
             return;
         }
         if self.out.len() - self.line_start > self.limit {
             self.check_length();
         }
+        self.continued =
+            !self.table.continuation.is_empty() && self.out.ends_with(&self.table.continuation);
         self.out.extend_from_slice(self.table.newline);
         self.line += 1;
+    }
+
+    /// A line without words is none, and its number is free.
+    fn take_back(&mut self) {
+        if self.words_start > self.line_start {
+            self.next_number = self.last_number;
+        }
+        self.out.truncate(self.line_start);
+        self.words_start = self.line_start;
     }
 
     /// A line with this text, unnumbered or not.
@@ -179,225 +193,8 @@ impl<'a> Writer<'a> {
         self.separate();
         self.out.extend_from_slice(&format.prefix);
         number::push(&mut self.out, value, &format.style);
+        self.out.extend_from_slice(&format.suffix);
     }
-
-    #[inline]
-    fn slot(&mut self, slot: Slot, value: i64) {
-        if self.out.len() > self.words_start {
-            self.out.extend_from_slice(&self.table.separator);
-        }
-        let format = &self.table.words[slot as usize];
-        self.out.extend_from_slice(&format.prefix);
-        number::push(&mut self.out, value, &format.style);
-    }
-
-    /// A straight move or an arc.
-    pub fn motion(&mut self, motion: &Motion) {
-        let block = match *motion {
-            Motion::Rapid { to, axes } => MotionBlock {
-                pattern: RAPID_PATTERN,
-                code: RAPID,
-                to,
-                axes,
-                centre: [0, 0],
-                feed: None,
-                circle: false,
-            },
-            Motion::Line { to, feed } => MotionBlock {
-                pattern: LINE_PATTERN,
-                code: LINE,
-                to,
-                axes: ALL_AXES,
-                centre: [0, 0],
-                feed: Some(split_feed(feed)),
-                circle: false,
-            },
-            Motion::Arc { to, centre, clockwise, feed, .. } => MotionBlock {
-                pattern: ARC_PATTERN,
-                code: if clockwise { ARC_CW } else { ARC_CCW },
-                to,
-                axes: ALL_AXES,
-                centre,
-                feed: Some(split_feed(feed)),
-                circle: to.x == self.position.x && to.y == self.position.y,
-            },
-            Motion::Nurbs { .. } => return,
-        };
-        if self.has_something_to_do(&block) {
-            self.begin_line(true);
-            if !self.with_first_z.is_empty() && block.axes & axes::Z != 0 {
-                let words = core::mem::take(&mut self.with_first_z);
-                self.text(&words);
-            }
-            self.items(&block);
-            self.end_line();
-            self.arrive(&block);
-        }
-    }
-
-    /// A straight move to where the machine is prints nothing.
-    #[inline]
-    fn has_something_to_do(&self, block: &MotionBlock) -> bool {
-        block.circle
-            || [block.to.x, block.to.y, block.to.z, block.to.r]
-                .iter()
-                .enumerate()
-                .any(|(i, &value)| block.axes & (1 << i) != 0 && self.state.axes[i] != Some(value))
-    }
-
-    fn items(&mut self, block: &MotionBlock) {
-        // The pattern is taken out of the table so that items can be printed while it is read.
-        let pattern = core::mem::take(&mut self.table.patterns[block.pattern]);
-        for item in &pattern {
-            match item {
-                Item::Motion => self.motion_code(block.code),
-                Item::FeedMode => self.feed_mode(block),
-                Item::Direction => self.direction(block),
-                Item::NewLine => {
-                    self.end_line();
-                    self.begin_line(true);
-                }
-                Item::Text(text) => self.text(text),
-                Item::Word(slot) => self.word(*slot, block),
-            }
-        }
-        self.table.patterns[block.pattern] = pattern;
-    }
-
-    #[inline]
-    fn motion_code(&mut self, code: usize) {
-        if self.table.modal_motion && self.state.motion == Some(code) {
-            return;
-        }
-        if self.out.len() > self.words_start {
-            self.out.extend_from_slice(&self.table.separator);
-        }
-        self.out.extend_from_slice(&self.table.codes[code]);
-        self.state.motion = Some(code);
-    }
-
-    /// After a change of feed mode no control keeps F.
-    #[inline]
-    fn feed_mode(&mut self, block: &MotionBlock) {
-        let Some((mode, _)) = block.feed else { return };
-        if self.state.mode == Some(mode) {
-            return;
-        }
-        let code = core::mem::take(&mut self.table.modes[mode]);
-        self.text(&code);
-        self.table.modes[mode] = code;
-        self.state.mode = Some(mode);
-        self.state.feed = None;
-    }
-
-    fn direction(&mut self, block: &MotionBlock) {
-        let index = usize::from(block.code == ARC_CCW);
-        let text = core::mem::take(&mut self.table.directions[index]);
-        self.text(&text);
-        self.table.directions[index] = text;
-    }
-
-    #[inline]
-    fn word(&mut self, slot: Slot, block: &MotionBlock) {
-        match slot {
-            Slot::X => self.axis(slot, 0, block.to.x, block),
-            Slot::Y => self.axis(slot, 1, block.to.y, block),
-            Slot::Z => self.axis(slot, 2, block.to.z, block),
-            Slot::Rotary => self.axis(slot, 3, block.to.r, block),
-            Slot::I => self.offset(slot, block.centre[0], block.centre[1]),
-            Slot::J => self.offset(slot, block.centre[1], block.centre[0]),
-            Slot::Cx => self.slot(slot, self.position.x * self.table.centre_per_linear + block.centre[0]),
-            Slot::Cy => self.slot(slot, self.position.y * self.table.centre_per_linear + block.centre[1]),
-            Slot::Radius => self.radius(block),
-            Slot::Feed => self.feed(block),
-        }
-    }
-
-    #[inline]
-    fn axis(&mut self, slot: Slot, index: usize, value: i64, block: &MotionBlock) {
-        let unchanged = self.state.axes[index] == Some(value);
-        let print = if block.circle && index < 2 {
-            match self.table.full_circle {
-                FullCircleWords::Bare | FullCircleWords::Split => false,
-                FullCircleWords::OneEndWord => index == 0,
-                FullCircleWords::EndWords => true,
-            }
-        } else {
-            block.axes & (1 << index) != 0 && !(unchanged && self.table.words[slot as usize].modal)
-        };
-        // The rotary word of a machine without one has no letter and never moves.
-        if print && !(index == 3 && self.table.words[slot as usize].prefix.is_empty()) {
-            self.slot(slot, value);
-        }
-    }
-
-    #[inline]
-    fn offset(&mut self, slot: Slot, value: i64, other: i64) {
-        if !(self.table.drop_zero && value == 0 && other != 0) {
-            self.slot(slot, value);
-        }
-    }
-
-    /// R, negative for more than half a turn.
-    fn radius(&mut self, block: &MotionBlock) {
-        if self.table.form != ArcForm::Radius {
-            return;
-        }
-        let unit = self.table.centre_per_linear;
-        let end = [(block.to.x - self.position.x) * unit, (block.to.y - self.position.y) * unit];
-        let [cx, cy] = block.centre.map(|v| v as f64);
-        let radius = crate::math::hypot(cx, cy).round() as i64;
-        let cross = end[0] as f64 * cy - end[1] as f64 * cx;
-        let large = if block.code == ARC_CW { cross > 0.0 } else { cross < 0.0 };
-        self.slot(Slot::Radius, if large { -radius } else { radius });
-    }
-
-    #[inline]
-    fn feed(&mut self, block: &MotionBlock) {
-        let Some((mode, value)) = block.feed else { return };
-        if self.state.feed == Some(value) && mode != INVERSE_TIME && self.table.feeds[mode].modal {
-            return;
-        }
-        if self.out.len() > self.words_start {
-            self.out.extend_from_slice(&self.table.separator);
-        }
-        let format = &self.table.feeds[mode];
-        self.out.extend_from_slice(&format.prefix);
-        number::push(&mut self.out, value, &format.style);
-        self.state.feed = Some(value);
-    }
-
-    #[inline]
-    fn arrive(&mut self, block: &MotionBlock) {
-        let ends = [block.to.x, block.to.y, block.to.z, block.to.r];
-        for (index, value) in ends.into_iter().enumerate() {
-            if block.axes & (1 << index) != 0 {
-                self.state.axes[index] = Some(value);
-            }
-        }
-        let old = self.position;
-        let pick = |bit: u8, new: i64, old: i64| if block.axes & bit != 0 { new } else { old };
-        self.position = Position {
-            x: pick(axes::X, block.to.x, old.x),
-            y: pick(axes::Y, block.to.y, old.y),
-            z: pick(axes::Z, block.to.z, old.z),
-            r: pick(axes::ROTARY, block.to.r, old.r),
-        };
-    }
-}
-
-const ALL_AXES: u8 = axes::X | axes::Y | axes::Z | axes::ROTARY;
-
-/// A motion in the form that patterns read.
-struct MotionBlock {
-    pattern: usize,
-    code: usize,
-    to: Position,
-    axes: u8,
-    centre: [i64; 2],
-    feed: Option<(usize, i64)>,
-    /// The arc is a full circle.
-    circle: bool,
 }
 
 pub(super) fn split_feed(feed: FeedWord) -> (usize, i64) {

@@ -1,0 +1,192 @@
+//! What templates can read.
+
+use serde::Serialize;
+
+use super::events::Events;
+use super::number;
+use crate::ir::{CutterKind, Spindle, Tool};
+use crate::target::BlockKind;
+use crate::units::LengthUnit;
+
+/// What every template can read.
+#[derive(Serialize)]
+pub(super) struct Context<'a> {
+    post: PostContext<'a>,
+    program: ProgramContext,
+    tools: Vec<ToolContext>,
+    rotary: Option<String>,
+    safe_start: String,
+    options: &'a std::collections::BTreeMap<String, String>,
+    /// Whether the spindle turns.
+    spindle_on: bool,
+    /// Whether coolant flows.
+    coolant_on: bool,
+    /// The tool being changed to, in tool-change blocks.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tool: Option<ToolContext>,
+    /// Whether it is the first tool of the program.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub first: Option<bool>,
+    /// The spindle command that follows the tool change: `rpm` and `code`; `rpm` is 0 when there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spindle: Option<SpindleContext>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub operation: Option<OperationContext>,
+    /// The drilling cycle, in its templates.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cycle: Option<CycleContext>,
+}
+
+/// A drilling cycle; numbers as the control's words spell them, empty where the cycle has none.
+#[derive(Serialize)]
+pub(super) struct CycleContext {
+    pub kind: &'static str,
+    /// Levels, in the spelling of the word `z`.
+    pub z: String,
+    pub r: String,
+    pub surface: String,
+    pub initial: String,
+    pub after: String,
+    /// Distances, in the spelling of the word `z` without its sign.
+    pub depth: String,
+    pub clearance: String,
+    pub above: String,
+    pub peck: String,
+    pub shift: String,
+    pub pitch: String,
+    /// In the unit of `cycle-dwell`.
+    pub dwell: String,
+    pub feed: String,
+    /// `clearance` or `initial`.
+    pub retract: &'static str,
+    pub rpm: i64,
+}
+
+#[derive(Serialize)]
+struct PostContext<'a> {
+    name: &'a str,
+    title: &'a str,
+}
+
+#[derive(Serialize)]
+struct ProgramContext {
+    /// Cleaned for comments; empty when there is none.
+    title: String,
+    /// Letters and digits only.
+    name: String,
+    number: u32,
+    units: &'static str,
+}
+
+#[derive(Serialize, Clone)]
+pub(super) struct ToolContext {
+    number: u32,
+    name: String,
+    kind: &'static str,
+    diameter: String,
+    corner: String,
+    text: String,
+}
+
+#[derive(Serialize)]
+pub(super) struct SpindleContext {
+    pub rpm: i64,
+    pub code: String,
+}
+
+#[derive(Serialize)]
+pub(super) struct OperationContext {
+    pub name: String,
+}
+
+impl<'a> Events<'a> {
+    pub(super) fn context(&self) -> Context<'a> {
+        let dialect = self.writer.dialect;
+        Context {
+            post: PostContext { name: &dialect.name, title: &dialect.spec.post.title },
+            program: self.program_context(),
+            tools: self.program.tools.iter().map(|tool| self.tool_context(tool)).collect(),
+            rotary: self.program.capabilities.rotary.map(|r| r.letter.to_string()),
+            safe_start: self.safe_start(),
+            options: &self.program.capabilities.options,
+            spindle_on: self.spindle_on,
+            coolant_on: self.coolant_on,
+            tool: None,
+            first: None,
+            spindle: None,
+            operation: None,
+            cycle: None,
+        }
+    }
+
+    fn program_context(&self) -> ProgramContext {
+        let spec = &self.writer.dialect.spec;
+        let title = self.program.title.as_deref().unwrap_or_default();
+        let name: String = title
+            .chars()
+            .filter(char::is_ascii_alphanumeric)
+            .take(spec.file.name_max)
+            .collect::<String>()
+            .to_uppercase();
+        ProgramContext {
+            title: spec.comments.clean(title),
+            name: if name.is_empty() { "PART".into() } else { name },
+            number: spec.file.number,
+            units: match self.unit() {
+                LengthUnit::Millimetre => "mm",
+                LengthUnit::Inch => "inch",
+            },
+        }
+    }
+
+    pub(super) fn tool_context(&self, tool: &Tool) -> ToolContext {
+        let grid = &self.program.capabilities.grid;
+        let length = |mm: f64| {
+            number::steps(mm / grid.unit.in_mm(), grid.linear_decimals)
+                .map_or_else(String::new, |s| number::plain(s, grid.linear_decimals))
+        };
+        let kind = match tool.kind {
+            CutterKind::Flat => "flat",
+            CutterKind::Ball => "ball",
+            CutterKind::Bull => "bull",
+            CutterKind::Taper => "taper",
+        };
+        let number = tool.number.unwrap_or(0);
+        let name = self.writer.dialect.spec.comments.clean(&tool.name);
+        let called = format!("T{number}");
+        let label = if name.eq_ignore_ascii_case(&called) { called } else { format!("{called} {name}") };
+        let text = format!("{label}, {kind}, D={}", length(tool.diameter));
+        ToolContext { number, name, kind, diameter: length(tool.diameter), corner: length(tool.corner), text }
+    }
+
+    fn safe_start(&self) -> String {
+        let spec = &self.writer.dialect.spec;
+        let separator = &spec.line.separator;
+        let lines: Vec<String> = spec
+            .safe_start
+            .iter()
+            .map(|line| {
+                let starts = line.iter().filter_map(|g| spec.groups.get(g)).map(|g| g.start.of(self.unit()));
+                let codes: Vec<String> = starts.filter(|code| !code.is_empty()).collect();
+                codes.join(separator)
+            })
+            .collect();
+        lines.join("\n")
+    }
+
+    /// The spindle command before the next tool change.
+    pub(super) fn spindle_after(&self, index: usize) -> SpindleContext {
+        let rest = self.program.blocks.get(index + 1..).unwrap_or_default();
+        let found = rest
+            .iter()
+            .take_while(|b| !matches!(b.kind, BlockKind::ToolChange(_) | BlockKind::Motion(_)))
+            .find_map(|b| if let BlockKind::Spindle(spindle) = b.kind { Some(spindle) } else { None });
+        match found {
+            Some(Spindle::On { rpm, clockwise }) => {
+                let code = self.spindle_code(clockwise).to_owned();
+                SpindleContext { rpm: number::steps(rpm, 0).unwrap_or(0), code }
+            }
+            _ => SpindleContext { rpm: 0, code: String::new() },
+        }
+    }
+}

@@ -1,0 +1,141 @@
+//! NURBS curves, from their patterns.
+
+use super::events::Events;
+use super::number;
+use super::pattern::{Item, Named, Slot};
+use super::table::{WordFormat, word};
+use super::writer::split_feed;
+use crate::diag::codes;
+use crate::target::{FeedWord, Nurbs, Position};
+
+/// Words of NURBS blocks.
+struct Words {
+    order: WordFormat,
+    knot: WordFormat,
+    weight: WordFormat,
+}
+
+/// What one block of a curve says.
+#[derive(Clone, Copy)]
+struct CurveBlock {
+    order: u8,
+    point: Option<(Position, f64)>,
+    knot: Option<f64>,
+    feed: FeedWord,
+}
+
+impl Events<'_> {
+    /// A NURBS curve: its first block, one for every further control point, and those of the knots left.
+    pub fn nurbs(&mut self, curve: u32, feed: FeedWord) {
+        let Some(nurbs) = self.program.nurbs.get(curve as usize) else { return };
+        let spec = &self.writer.dialect.spec.nurbs;
+        let [begin, point, rest, end] =
+            [&spec.begin, &spec.point, &spec.rest, &spec.end].map(|pattern| Item::all(pattern));
+        let words = self.nurbs_words();
+        self.curve_feed_mode(feed);
+        let knots = nurbs.knots.iter().map(|k| Some(*k)).chain(core::iter::repeat(None));
+        let points = nurbs.points.iter().map(|p| Some(*p));
+        let mut knots_left = nurbs.knots.len();
+        for (index, (at, knot)) in points.zip(knots).enumerate() {
+            let items = if index == 0 { &begin } else { &point };
+            self.curve_block(items, &words, CurveBlock { order: nurbs.order, point: at, knot, feed });
+            knots_left = knots_left.saturating_sub(1);
+        }
+        if !rest.is_empty() {
+            for knot in nurbs.knots.iter().skip(nurbs.knots.len() - knots_left) {
+                let block = CurveBlock { order: nurbs.order, point: None, knot: Some(*knot), feed };
+                self.curve_block(&rest, &words, block);
+            }
+        }
+        if !end.is_empty() {
+            let block = CurveBlock { order: nurbs.order, point: None, knot: None, feed };
+            self.curve_block(&end, &words, block);
+        }
+        self.curve_arrive(nurbs);
+    }
+
+    fn nurbs_words(&self) -> Words {
+        let spec = &self.writer.dialect.spec;
+        let unit = self.unit();
+        let mut weight = word(spec, "weight", false, unit);
+        weight.style.decimals = spec.nurbs.weight_decimals;
+        let mut knot = word(spec, "knot", false, unit);
+        knot.style.decimals = spec.nurbs.knot_decimals;
+        Words { order: word(spec, "order", false, unit), knot, weight }
+    }
+
+    /// The feed mode, in a line of its own when it changes: a curve's first block holds the curve only.
+    fn curve_feed_mode(&mut self, feed: FeedWord) {
+        let (mode, _) = split_feed(feed);
+        if self.writer.state.mode != Some(mode) {
+            let code = self.writer.table.modes[mode].clone();
+            self.writer.begin_line(true);
+            self.writer.text(&code);
+            self.writer.end_line();
+            self.writer.state.mode = Some(mode);
+            self.writer.state.feed = None;
+        }
+    }
+
+    fn curve_block(&mut self, items: &[Item], words: &Words, block: CurveBlock) {
+        self.writer.begin_line(true);
+        for item in items {
+            match item {
+                Item::Text(text) => self.writer.text(text),
+                Item::Word(Slot::Feed) => self.curve_feed(block.feed),
+                Item::Word(slot) => self.curve_axis(*slot, block.point),
+                Item::Named(Named::Order) => self.writer.number(&words.order, i64::from(block.order)),
+                Item::Named(Named::Knot) => self.real(&words.knot, block.knot),
+                Item::Named(Named::Weight) => self.real(&words.weight, block.point.map(|p| p.1)),
+                Item::NewLine => {
+                    self.writer.end_line();
+                    self.writer.begin_line(true);
+                }
+                // Other items do not pass the check of the dialect.
+                _ => {}
+            }
+        }
+        self.writer.end_line();
+    }
+
+    fn curve_axis(&mut self, slot: Slot, point: Option<(Position, f64)>) {
+        let Some((at, _)) = point else { return };
+        let value = match slot {
+            Slot::X => at.x,
+            Slot::Y => at.y,
+            _ => self.writer.position.z,
+        };
+        let format = self.writer.table.words[slot as usize].clone();
+        self.writer.number(&format, value);
+    }
+
+    fn curve_feed(&mut self, feed: FeedWord) {
+        let (mode, value) = split_feed(feed);
+        if self.writer.state.feed != Some(value) {
+            let format = self.writer.table.feeds[mode].clone();
+            self.writer.number(&format, value);
+            self.writer.state.feed = Some(value);
+        }
+    }
+
+    fn real(&mut self, format: &WordFormat, value: Option<f64>) {
+        let Some(value) = value else { return };
+        match number::steps(value, format.style.decimals) {
+            Some(steps) => self.writer.number(format, steps),
+            None => {
+                self.error(&codes::post::WORD_RANGE, format!("{value} cannot be printed in a NURBS block"))
+            }
+        }
+    }
+
+    fn curve_arrive(&mut self, nurbs: &Nurbs) {
+        self.writer.state.motion = None;
+        if let Some((end, _)) = nurbs.points.last() {
+            // Curves are in the XY plane.
+            self.writer.position.x = end.x;
+            self.writer.position.y = end.y;
+            self.writer.state.axes[0] = Some(end.x);
+            self.writer.state.axes[1] = Some(end.y);
+        }
+    }
+}
