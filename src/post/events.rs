@@ -102,8 +102,9 @@ impl<'a> Events<'a> {
         let context = Value::from(Serde(self.context()));
         self.template("templates.header", &spec.templates.header, &context);
         self.writer.state.mode = Some(PER_MINUTE);
-        let starts = |code: &str| spec.groups.values().any(|g| g.start.of(self.unit()) == code);
-        let said = |item: &String| item.strip_prefix('=').is_some_and(&starts);
+        let unit = self.unit();
+        let starts = |code: &str| spec.groups.values().any(|g| g.start.of(unit) == code);
+        let said = |item: &String| item.strip_prefix('=').is_some_and(starts);
         if spec.path_control.exact.iter().all(said) {
             self.writer.state.path = Some(None);
         }
@@ -234,12 +235,12 @@ impl<'a> Events<'a> {
         let short = &spec.spindle.after_tool_change;
         let said = self.said_speed.take() == Some(speed) && !short.is_empty();
         let items = Item::all(if said { short } else { &spec.spindle.on });
-        self.block(&items, code, &self.spindle.clone(), speed);
+        self.pattern(&items, code, &self.spindle.clone(), speed);
         self.speed = speed;
     }
 
     /// Prints a pattern that holds one number and one code.
-    fn block(&mut self, items: &[Item], code: &str, format: &WordFormat, value: i64) {
+    fn pattern(&mut self, items: &[Item], code: &str, format: &WordFormat, value: i64) {
         self.writer.begin_line(true);
         for item in items {
             match item {
@@ -273,7 +274,7 @@ impl<'a> Events<'a> {
         let rules = &spec.dwell;
         let steps = self.dwell_number(seconds, rules.unit, rules.decimals, rules.max);
         let Some(steps) = steps else { return };
-        self.block(&Item::all(&rules.block), "", &self.dwell.clone(), steps);
+        self.pattern(&Item::all(&rules.block), "", &self.dwell.clone(), steps);
     }
 
     /// A dwell in steps of its number; a message when it does not fit.
@@ -343,7 +344,7 @@ impl<'a> Events<'a> {
         }
         let rules = &spec.path_control;
         let items = Item::all(if steps.is_some() { &rules.tolerance } else { &rules.exact });
-        self.block(&items, "", &format, steps.unwrap_or(0));
+        self.pattern(&items, "", &format, steps.unwrap_or(0));
         self.writer.state.path = Some(steps);
     }
 }

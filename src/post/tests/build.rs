@@ -100,6 +100,28 @@ impl Sheet {
         let feed = self.minute();
         self.event(BlockKind::Motion(Motion::Nurbs { curve, feed }))
     }
+    /// A cycle over these holes, its surface at 0: 10 deep, clearance 2, from 50, in pecks of 4, with a dwell of
+    /// half a second, to the clearance level.
+    pub fn drill(mut self, kind: crate::cl::CycleKind, holes: &[(i64, i64)]) -> Sheet {
+        let step = 10i64.pow(u32::from(self.program.capabilities.grid.linear_decimals));
+        let index = u32::try_from(self.program.cycles.len()).unwrap();
+        self.program.cycles.push(crate::target::Cycle {
+            kind,
+            surface: 0,
+            bottom: -10 * step,
+            clearance: 2 * step,
+            initial: 50 * step,
+            retract: crate::cl::RetractTo::Clearance,
+            peck: Some(4 * step),
+            dwell: Some(0.5),
+            feed: self.minute(),
+        });
+        let mut sheet = self.event(BlockKind::BeginCycle(index));
+        for &(x, y) in holes {
+            sheet = sheet.event(BlockKind::Hole(Position { x: x * step, y: y * step, z: 0, r: 0 }));
+        }
+        sheet.event(BlockKind::EndCycle)
+    }
     pub fn written(&self) -> Result<Written, Vec<crate::diag::Diagnostic>> {
         write(&self.dialect, &self.program, &self.origins)
     }

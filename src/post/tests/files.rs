@@ -43,7 +43,7 @@ fn unknown_keys_are_shown_with_what_was_probably_meant() {
     assert_eq!(
         complaints(text),
         [
-            "E0703 `xyzzy` [arcs] has no key `xyzzy` its keys are enabled, form, zero-offsets, full-circle, split, max-sweep, min-radius, max-radius, radius-tolerance, helix",
+            "E0703 `xyzzy` [arcs] has no key `xyzzy` its keys are enabled, planes, zero-offsets, full-circle, signed-radius, split, max-sweep, min-radius, max-radius, radius-tolerance, helix",
             "E0703 `word` a post file has no key `word` did you mean `words`?",
             "E0703 `decimal` [words.y] has no key `decimal` did you mean `decimals`?",
         ]
@@ -52,11 +52,11 @@ fn unknown_keys_are_shown_with_what_was_probably_meant() {
 
 #[test]
 fn wrong_values_say_what_is_wanted() {
-    let text = "inherits = \"fanuc\"\n[post]\ntitle = 7\n[words.x]\ndecimals = 99\nmax = { mm = 5 }\n[arcs]\nform = \"incremantal\"\nhelix = \"yes\"\n[limits]\nx = [10, -10]\n";
+    let text = "inherits = \"fanuc\"\n[post]\ntitle = 7\n[words.x]\ndecimals = 99\nmax = { mm = 5 }\n[arcs]\nfull-circle = \"bear\"\nhelix = \"yes\"\n[limits]\nx = [10, -10]\n";
     assert_eq!(
         complaints(text),
         [
-            "E0704 `\"incremantal\"` `arcs.form` is one of \"incremental\", \"absolute\", \"radius\"; did you mean \"incremental\"?, not \"incremantal\"",
+            "E0704 `\"bear\"` `arcs.full-circle` is one of \"bare\", \"one-end-word\", \"end-words\", \"split\"; did you mean \"bare\"?, not \"bear\"",
             "E0704 `\"yes\"` `arcs.helix` is `true` or `false`, not \"yes\"",
             "E0704 `[10, -10]` `limits.x` is a list of two numbers, the smaller first, not [10, -10]",
             "E0704 `7` `post.title` is a text, not 7",
@@ -161,7 +161,7 @@ fn every_key_of_the_schema_is_understood_and_every_built_in_post_gives_it() {
     let text = crate::post::builtin_text("iso").unwrap();
     let table: toml::Table = text.parse().unwrap();
     for key in crate::post::schema::ROOT {
-        let optional = ["inherits", "safe-start", "limits", "options"];
+        let optional = ["inherits", "safe-start", "limits", "options", "cycles"];
         assert!(optional.contains(&key.name) || table.contains_key(key.name), "{} is in no file", key.name);
     }
 }
