@@ -6,6 +6,7 @@
 
 use super::emit::Emitter;
 use super::feed;
+use crate::cl::cycle::CycleName;
 use crate::cl::{Cycle, CycleKind, RetractTo};
 use crate::diag::codes;
 use crate::geom::Point3;
@@ -71,12 +72,23 @@ impl Emitter<'_> {
         let initial = active.initial.unwrap_or(clearance).max(clearance);
         let hole = Hole { x, y, surface, bottom, clearance, initial };
         let Some(feed) = self.cycle_feed(&cycle) else { return };
-        if self.capabilities.cycles.contains(&cycle.kind.name()) && self.capabilities.rotary.is_none() {
+        if self.keeps(&cycle) {
             self.keep(active, hole, feed);
         } else {
             self.expand(&cycle, hole, feed);
         }
         self.exact = Some(Point3::new(point.x, point.y, self.mm(self.at[2].unwrap_or(hole.initial))));
+    }
+
+    /// Whether the control has the cycle, with its dwell if there is one, and nothing turns under it.
+    fn keeps(&self, cycle: &Cycle) -> bool {
+        let name = cycle.kind.name();
+        let dwells = cycle.dwell.is_some_and(|s| s > 0.0);
+        let may_dwell = matches!(name, CycleName::Dwell | CycleName::BoreDwell)
+            || self.capabilities.dwelling_cycles.contains(&name);
+        self.capabilities.cycles.contains(&name)
+            && self.capabilities.rotary.is_none()
+            && (!dwells || may_dwell)
     }
 
     fn mm(&self, steps: i64) -> f64 {

@@ -320,6 +320,9 @@ impl<'a> Emitter<'a> {
 
     /// Z first when it rises or is not known, last when it falls.
     pub(super) fn rapid(&mut self, to: Position) {
+        if self.capabilities.whole_points {
+            return self.rapid_axes(to, axes::X | axes::Y | axes::Z | axes::ROTARY);
+        }
         let rises = self.at[2].is_none_or(|z| to.z > z);
         if rises {
             self.rapid_axes(to, axes::Z);
@@ -355,6 +358,10 @@ impl<'a> Emitter<'a> {
                 moved |= 1 << i;
                 self.at[i] = Some(end);
             }
+        }
+        if self.capabilities.whole_points && moved != 0 {
+            // A height alone is no point: it is reached with the first one that is known.
+            moved = if self.at.iter().all(Option::is_some) { moved | axes::X | axes::Y | axes::Z } else { 0 };
         }
         if moved != 0 {
             let to = self.here();

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::dialect::{Dialect, DwellUnit, FullCircleWords, Spec};
+use super::dialect::{Cycle, Dialect, DwellUnit, FullCircleWords, Spec};
 use crate::cl::cycle::CycleName;
 use crate::diag::{Diagnostic, codes, did_you_mean};
 use crate::ir::{Machine, Rotary};
@@ -30,13 +30,16 @@ impl Dialect {
             None => None,
         };
         let options = self.options(machine);
+        self.check_options(&options)?;
         self.check_dwell(&options)?;
         Ok(Capabilities {
             name: self.name.clone(),
             grid: self.grid(unit),
             arcs: spec.arcs.enabled,
             planes: self.planes(),
-            cycles: self.cycles(),
+            cycles: self.cycles(|_| true),
+            dwelling_cycles: self.cycles(|cycle| cycle.dwell),
+            whole_points: spec.modal.whole_points,
             max_sweep: Angle::degrees(spec.arcs.max_sweep).rad(),
             full_circle: match spec.arcs.full_circle {
                 FullCircleWords::Split => FullCircle::Split(spec.arcs.split),
@@ -107,9 +110,21 @@ impl Dialect {
     }
 
     /// Drilling cycles that are kept.
-    fn cycles(&self) -> BTreeSet<CycleName> {
-        let kept = self.spec.cycles.iter().filter(|(_, cycle)| cycle.enabled);
+    fn cycles(&self, wanted: impl Fn(&Cycle) -> bool) -> BTreeSet<CycleName> {
+        let kept = self.spec.cycles.iter().filter(|(_, cycle)| cycle.enabled && wanted(cycle));
         kept.filter_map(|(name, _)| CycleName::by_text(name)).collect()
+    }
+
+    /// Templates print options among words: they are printable and stay on their line.
+    fn check_options(&self, options: &BTreeMap<String, String>) -> Result<(), Diagnostic> {
+        let printable = |text: &str| text.bytes().all(|b| b.is_ascii_graphic() || b == b' ');
+        match options.iter().find(|(_, value)| !printable(value)) {
+            None => Ok(()),
+            Some((key, value)) => Err(Diagnostic::global(
+                &codes::post::MACHINE_OPTION,
+                format!("the option `{key}` is {value:?}; options are printable ASCII on one line"),
+            )),
+        }
     }
 
     /// A declared unit of dwells is one that is known.
@@ -167,7 +182,7 @@ impl Dialect {
         Ok((possible && share > 0.0).then_some(PathTolerance { share }))
     }
 
-    /// The post's options, with the machine's values.
+    /// The post's options, with the machine's values: texts that stay on their line.
     fn options(&self, machine: Option<&Machine>) -> BTreeMap<String, String> {
         let mut options = self.spec.options.clone();
         for (key, value) in machine.iter().flat_map(|m| &m.options) {

@@ -118,7 +118,7 @@ fn check_arc(dialect: &Dialect, errors: &mut Vec<Diagnostic>) {
         if others && !radius_only(items) && !has(items, third) {
             say(path, format!("arcs are claimed for other planes than XY, and the pattern has no `{third}`"));
         }
-        if others && !has(items, "plane") && !has(items, "direction") {
+        if others && !has(items, "plane") && !has(items, "axis") {
             say(path, "arcs are claimed for several planes, and the pattern has no `plane`".into());
         }
     }
@@ -177,7 +177,13 @@ fn check_collision(dialect: &Dialect, items: &[String], path: &str, errors: &mut
 /// Words that are spelled in a way no control could read.
 fn check_words(dialect: &Dialect, errors: &mut Vec<Diagnostic>) {
     for (name, word) in &dialect.spec.words {
-        for (key, text) in [("prefix", &word.prefix), ("suffix", &word.suffix)] {
+        let suffix = |unit| word.suffix.as_ref().map_or_else(String::new, |s| s.of(unit));
+        let texts = [
+            ("prefix", word.prefix.clone()),
+            ("suffix", suffix(LengthUnit::Millimetre)),
+            ("suffix", suffix(LengthUnit::Inch)),
+        ];
+        for (key, text) in texts {
             if text.len() > 16 || text.bytes().any(|b| !(b.is_ascii_graphic() || b == b' ')) {
                 let message = format!("the {key} of `{name}` is not a short printable text");
                 errors.push(at(dialect, &format!("words.{name}.{key}"), &codes::post::WRONG_VALUE, message));

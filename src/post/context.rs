@@ -78,7 +78,7 @@ struct ProgramContext {
     units: &'static str,
 }
 
-#[derive(Serialize, Clone)]
+#[derive(Serialize, Clone, Default)]
 pub(super) struct ToolContext {
     number: u32,
     name: String,
@@ -97,6 +97,10 @@ pub(super) struct SpindleContext {
 #[derive(Serialize)]
 pub(super) struct OperationContext {
     pub name: String,
+    /// Whether it is the first of the program.
+    pub first: bool,
+    /// The tool in the spindle.
+    pub tool: ToolContext,
 }
 
 impl<'a> Events<'a> {

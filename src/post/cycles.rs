@@ -80,9 +80,13 @@ impl Events<'_> {
             CycleKind::BoreOrient { shift } => (None, mm(shift)),
             _ => (None, None),
         };
+        let whole = cycle.clearance - cycle.bottom;
+        let pecks = matches!(cycle.kind, CycleKind::Deep | CycleKind::ChipBreak);
+        let peck = cycle.peck.or_else(|| pecks.then_some(whole));
+        let dwells = matches!(cycle.kind, CycleKind::Dwell | CycleKind::BoreDwell);
         let optional = |steps: Option<i64>| steps.map_or_else(String::new, |s| spelled(s, &distance));
         let rules = &self.writer.dialect.spec.cycle_dwell;
-        let dwell = match cycle.dwell {
+        let dwell = match cycle.dwell.or_else(|| dwells.then_some(0.0)) {
             None => None,
             Some(seconds) => Some(self.dwell_number(seconds, rules.unit, rules.decimals, rules.max)?),
         };
@@ -100,7 +104,7 @@ impl Events<'_> {
             depth: spelled(cycle.surface - cycle.bottom, &distance),
             clearance: spelled(cycle.clearance - cycle.surface, &distance),
             above: spelled(cycle.initial - cycle.surface, &distance),
-            peck: optional(cycle.peck),
+            peck: optional(peck),
             shift: optional(shift),
             pitch: optional(pitch),
             dwell: dwell.map_or_else(String::new, |steps| spelled(steps, &dwell_style)),

@@ -206,7 +206,7 @@ pub struct Numbers {
 pub struct Word {
     pub prefix: String,
     #[serde(default)]
-    pub suffix: String,
+    pub suffix: Option<ByUnit<String>>,
     #[serde(default)]
     pub decimals: Option<ByUnit<u8>>,
     #[serde(default)]
@@ -230,6 +230,7 @@ pub struct Modal {
     pub motion: bool,
     pub axes: bool,
     pub arc_ends: bool,
+    pub whole_points: bool,
     pub feed: bool,
 }
 
@@ -372,6 +373,8 @@ pub struct Cycle {
     pub words: String,
     #[serde(default)]
     pub end: String,
+    #[serde(default)]
+    pub dwell: bool,
     #[serde(default = "yes")]
     pub enabled: bool,
 }

@@ -23,6 +23,9 @@ pub(super) struct Events<'a> {
     origins: &'a Arena<Origin>,
     renderer: Renderer,
     tool_changes: usize,
+    /// The tool in the spindle.
+    tool: Option<u32>,
+    first_operation: bool,
     dwell: WordFormat,
     spindle: WordFormat,
     pub(super) spindle_on: bool,
@@ -52,6 +55,8 @@ impl<'a> Events<'a> {
             origins,
             renderer,
             tool_changes: 0,
+            tool: None,
+            first_operation: true,
             dwell,
             spindle,
             spindle_on: false,
@@ -134,6 +139,7 @@ impl<'a> Events<'a> {
     /// What the machine did in a tool change is its own affair: everything is said again after it.
     fn tool_change(&mut self, index: usize, tool: u32) {
         let change = &self.writer.dialect.spec.tool_change;
+        self.tool = Some(tool);
         let Some(tool) = self.program.tools.get(tool as usize) else { return };
         if self.tool_changes > 0 {
             self.home_plane();
@@ -163,7 +169,10 @@ impl<'a> Events<'a> {
     fn operation(&mut self, name: &str) {
         let spec = &self.writer.dialect.spec;
         let mut context = self.context();
-        context.operation = Some(OperationContext { name: spec.comments.clean(name) });
+        let tool = self.tool.and_then(|index| self.program.tools.get(index as usize));
+        let tool = tool.map(|t| self.tool_context(t)).unwrap_or_default();
+        let first = core::mem::replace(&mut self.first_operation, false);
+        context.operation = Some(OperationContext { name: spec.comments.clean(name), first, tool });
         self.template("templates.operation", &spec.templates.operation, &Value::from(Serde(context)));
     }
 

@@ -138,8 +138,9 @@ impl Lint<'_> {
         }
         let has = |item: &str| spec.patterns.arc.iter().any(|i| i == item);
         let by_motion = has("motion") && spec.codes.arc_cw != spec.codes.arc_ccw;
+        let by_axis = has("axis");
         let by_direction = has("direction") && spec.codes.direction_cw != spec.codes.direction_ccw;
-        if !by_motion && !by_direction {
+        if !by_motion && !by_direction && !by_axis {
             let message = "clockwise and counter-clockwise arcs are printed alike".to_owned();
             self.inexpressible("patterns.arc", message);
         }

@@ -8,6 +8,7 @@ use crate::source::{FileError, FileId, FileProvider, SourceMap, Span};
 
 /// The built-in post files, by name.
 const BUILTIN: &[(&str, &str)] = &[
+    ("apt-cl", include_str!("dialects/apt-cl.post.toml")),
     ("centroid", include_str!("dialects/centroid.post.toml")),
     ("fanuc", include_str!("dialects/fanuc.post.toml")),
     ("grbl", include_str!("dialects/grbl.post.toml")),

@@ -90,15 +90,15 @@ impl Writer<'_> {
         }
     }
 
-    /// A hole of a drilling cycle; `after` is where the tool is after it.
+    /// A hole of a drilling cycle, at its surface; `after` is where the tool is after it.
     pub fn hole(&mut self, at: Position, after: i64) {
-        let to = Position { z: after, ..at };
-        let block = MotionBlock { pattern: HOLE_PATTERN, ..self.rapid(to, axes::X | axes::Y) };
-        // The first hole, and one where the last was, says where it is.
-        if !self.cycle[0].is_empty() || !self.cycle[1].is_empty() || !self.has_something_to_do(&block) {
+        let block = MotionBlock { pattern: HOLE_PATTERN, ..self.rapid(at, axes::X | axes::Y | axes::Z) };
+        // A hole where the last one was says where it is.
+        if self.state.axes[0] == Some(at.x) && self.state.axes[1] == Some(at.y) {
             self.state.axes[0] = None;
             self.state.axes[1] = None;
         }
+        self.state.axes[2] = None;
         self.print(&block);
         self.arrive(&block);
         self.position.z = after;
@@ -143,11 +143,23 @@ impl Writer<'_> {
                 Item::Word(slot) => self.word(*slot, block),
                 Item::Cycle => self.cycle_text(0),
                 Item::CycleWords => self.cycle_text(1),
-                // Patterns of motion do not hold these.
-                Item::Code | Item::Named(_) => {}
+                Item::Named(_) => self.turning_axis(block),
+                // No pattern of motion holds it.
+                Item::Code => {}
             }
         }
         self.table.patterns[block.pattern] = pattern;
+    }
+
+    /// The axis that an arc turns about by the right hand, as three numbers.
+    fn turning_axis(&mut self, block: &MotionBlock) {
+        let third = PLANE_AXES[block.plane][2];
+        let sense = if block.code == ARC_CCW { 1 } else { -1 };
+        for axis in 0..3 {
+            self.separate();
+            self.out.extend_from_slice(&self.table.axis.prefix);
+            number::push(&mut self.out, if axis == third { sense } else { 0 }, &self.table.axis.style);
+        }
     }
 
     #[inline]
@@ -322,7 +334,8 @@ impl Writer<'_> {
     #[inline]
     fn feed(&mut self, block: &MotionBlock) {
         let Some((mode, value)) = block.feed else { return };
-        if self.state.feed == Some(value) && mode != INVERSE_TIME && self.table.feeds[mode].modal {
+        let same = self.state.feed == Some(value) && self.state.mode == Some(mode);
+        if same && mode != INVERSE_TIME && self.table.feeds[mode].modal {
             return;
         }
         if self.out.len() > self.words_start {
@@ -333,6 +346,7 @@ impl Writer<'_> {
         number::push(&mut self.out, value, &format.style);
         self.out.extend_from_slice(&format.suffix);
         self.state.feed = Some(value);
+        self.state.mode = Some(mode);
     }
 
     #[inline]

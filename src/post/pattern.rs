@@ -74,11 +74,19 @@ pub enum Named {
     Order,
     Knot,
     Weight,
+    Axis,
 }
 
 impl Named {
-    const ALL: [Named; 6] =
-        [Named::Spindle, Named::Dwell, Named::PathTolerance, Named::Order, Named::Knot, Named::Weight];
+    const ALL: [Named; 7] = [
+        Named::Spindle,
+        Named::Dwell,
+        Named::PathTolerance,
+        Named::Order,
+        Named::Knot,
+        Named::Weight,
+        Named::Axis,
+    ];
     /// Name in post files.
     #[must_use]
     pub const fn name(self) -> &'static str {
@@ -89,6 +97,7 @@ impl Named {
             Named::Order => "order",
             Named::Knot => "knot",
             Named::Weight => "weight",
+            Named::Axis => "axis",
         }
     }
 }
@@ -146,6 +155,7 @@ impl Place {
                 "plane",
                 "motion",
                 "direction",
+                "axis",
                 "x",
                 "y",
                 "z",
@@ -159,7 +169,7 @@ impl Place {
                 "sweep",
                 "feed",
             ],
-            Place::Hole => &["cycle", "motion", "x", "y", "cycle-words"],
+            Place::Hole => &["cycle", "motion", "x", "y", "z", "cycle-words"],
             Place::Nurbs => &["x", "y", "z", "order", "knot", "weight", "feed"],
             Place::Spindle => &["spindle", "code"],
             Place::Dwell => &["dwell"],

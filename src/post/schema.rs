@@ -153,7 +153,7 @@ const NUMBERS: &[Key] = &[
 ];
 const WORD: &[Key] = &[
     key("prefix", Shape::Text, "what stands before the number: `X`, `CR=`"),
-    key("suffix", Shape::Text, "what stands after it: `)` with the prefix `I=AC(`"),
+    key("suffix", Shape::TextByUnit, "what stands after it: `)` with the prefix `I=AC(`"),
     key(
         "decimals",
         Shape::IntegerByUnit(0, 9),
@@ -170,6 +170,11 @@ const MODAL: &[Key] = &[
     key("motion", Shape::Flag, "motion codes"),
     key("axes", Shape::Flag, "axis words"),
     key("arc-ends", Shape::Flag, "the end words of arcs"),
+    key(
+        "whole-points",
+        Shape::Flag,
+        "every move says X, Y and Z, and rapid moves go straight to their point, as in CL data",
+    ),
     key("feed", Shape::Flag, "feed"),
 ];
 const CODES: &[Key] = &[
@@ -270,6 +275,7 @@ const CYCLE: &[Key] = &[
     key("call", Shape::Text, "template of the pattern item `cycle` of the first hole"),
     key("words", Shape::Text, "template of the pattern item `cycle-words` of the first hole"),
     key("end", Shape::Text, "template of the lines after the last hole"),
+    key("dwell", Shape::Flag, "the cycle takes a dwell; `dwell` and `bore-dwell` always do"),
     key("enabled", Shape::Flag, "`false`: the parent's control keeps it, this one does not"),
 ];
 const SPINDLE: &[Key] = &[

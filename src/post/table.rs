@@ -39,6 +39,7 @@ const PATTERNS: usize = 5;
 pub(super) struct MotionTable {
     pub words: [WordFormat; SLOTS],
     pub feeds: [WordFormat; 3],
+    pub axis: WordFormat,
     pub patterns: [Box<[Item]>; PATTERNS],
     /// For every pattern, whether it prints where the block ends; the control knows it only then to the step.
     pub says_end: [bool; PATTERNS],
@@ -80,6 +81,7 @@ impl MotionTable {
             words,
             feeds: ["feed", "feed-per-revolution", "feed-inverse-time"]
                 .map(|name| word(spec, name, spec.modal.feed, unit)),
+            axis: word(spec, "axis", false, unit),
             says_end: core::array::from_fn(|i| {
                 i <= LINE_PATTERN || patterns[i].contains(&Item::Word(Slot::X))
             }),
@@ -139,7 +141,7 @@ fn axis_modal(spec: &Spec, slot: Slot) -> bool {
 pub(super) fn word(spec: &Spec, name: &str, modal: bool, unit: LengthUnit) -> WordFormat {
     spec.words.get(name).map_or_else(WordFormat::default, |word| WordFormat {
         prefix: word.prefix.as_bytes().into(),
-        suffix: word.suffix.as_bytes().into(),
+        suffix: word.suffix.as_ref().map_or_else(String::new, |s| s.of(unit)).into_bytes().into(),
         style: spec.style(name, word, unit),
         modal: word.modal.unwrap_or(modal),
     })

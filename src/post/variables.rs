@@ -44,6 +44,8 @@ pub const VARIABLES: &[Variable] = &[
     row(Everywhere, "spindle_on", "whether the spindle turns here"),
     row(Everywhere, "coolant_on", "whether coolant flows here"),
     row(Operation, "operation.name", "name of the operation, made harmless for comments"),
+    row(Operation, "operation.first", "whether it is the first of the program"),
+    row(Operation, "operation.tool", "the tool in the spindle, as `tool` in tool changes"),
     row(ToolChange, "tool.number", "number of the tool, 0 without one"),
     row(ToolChange, "tool.name", "name of the tool, made harmless for comments"),
     row(ToolChange, "tool.kind", "`flat`, `ball`, `bull` or `taper`"),
@@ -81,5 +83,10 @@ pub fn of(scope: Scope) -> impl Iterator<Item = &'static str> {
 #[must_use]
 pub fn is_known(name: &str, scope: Scope) -> bool {
     let table = |known: &str| known.strip_prefix(name).is_some_and(|rest| rest.starts_with('.'));
-    of(scope).any(|known| known == name || table(known))
+    // A tool in a table of tools has the members of a tool.
+    let of_tool = |name: &str| {
+        let member = name.strip_prefix("operation.tool.").filter(|_| scope == Scope::Operation);
+        member.is_some_and(|m| VARIABLES.iter().any(|v| v.name.strip_prefix("tool.") == Some(m)))
+    };
+    of(scope).any(|known| known == name || table(known)) || of_tool(name)
 }

@@ -172,7 +172,7 @@ impl<'a> Writer<'a> {
 
     /// Separator before every word but the first.
     #[inline]
-    fn separate(&mut self) {
+    pub fn separate(&mut self) {
         if self.out.len() > self.words_start {
             self.out.extend_from_slice(&self.table.separator);
         }

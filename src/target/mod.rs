@@ -97,6 +97,10 @@ pub struct Capabilities {
     pub planes: BTreeSet<Plane>,
     /// Drilling cycles that are kept; others become moves.
     pub cycles: BTreeSet<CycleName>,
+    /// Those of them that take a dwell, besides `Dwell` and `BoreDwell`.
+    pub dwelling_cycles: BTreeSet<CycleName>,
+    /// Every move says X, Y and Z, and rapid moves go straight to their point.
+    pub whole_points: bool,
     /// Largest sweep of one arc block, radians (2π when a full circle is fine).
     pub max_sweep: f64,
     /// Full circles.
