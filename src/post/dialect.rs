@@ -71,6 +71,17 @@ impl Dialect {
     pub fn control(&self) -> &str {
         &self.spec.post.control
     }
+    /// The control that reads a program back whose options these are.
+    #[must_use]
+    pub fn control_with(&self, options: &BTreeMap<String, String>) -> &str {
+        let says = |when: &str| {
+            when.split_once('=').is_some_and(|(name, value)| {
+                Spec::option(options, name.trim()).is_some_and(|v| v.eq_ignore_ascii_case(value.trim()))
+            })
+        };
+        let special = self.spec.post.control_when.iter().find(|(when, _)| says(when));
+        special.map_or(&self.spec.post.control, |(_, control)| control)
+    }
     /// How sure the facts are: `interpreter`, `manual` or `published`.
     #[must_use]
     pub fn confidence(&self) -> &str {
@@ -101,6 +112,8 @@ pub struct Post {
     pub title: String,
     pub extension: String,
     pub control: String,
+    #[serde(default)]
+    pub control_when: BTreeMap<String, String>,
     pub confidence: String,
     pub basis: String,
     #[serde(default, rename = "abstract")]

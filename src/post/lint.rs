@@ -123,7 +123,10 @@ impl Lint<'_> {
         if read.contains("options") {
             return;
         }
-        for name in self.dialect.spec.options.keys() {
+        let spec = &self.dialect.spec;
+        let proof: BTreeSet<&str> =
+            spec.post.control_when.keys().filter_map(|when| Some(when.split_once('=')?.0.trim())).collect();
+        for name in spec.options.keys().filter(|name| !proof.contains(name.as_str())) {
             let path = format!("options.{name}");
             if !read.contains(&path) && self.own(&path) {
                 self.unreachable(&path, format!("no template reads `{path}`"));

@@ -60,7 +60,7 @@ impl Writer<'_> {
             pattern: RAPID_PATTERN,
             code: RAPID,
             to,
-            axes,
+            axes: axes | self.table.rapid_axes,
             plane: 0,
             centre: [0, 0],
             feed: self.table.rapid_feed.map(|steps| (PER_MINUTE, steps)),

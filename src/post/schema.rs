@@ -106,6 +106,11 @@ const POST: &[Key] = &[
     key("extension", Shape::Text, "of the NC file, without the point"),
     key("control", Shape::Text, "the control that reads the program back for the proof"),
     key(
+        "control-when",
+        Shape::Texts,
+        "other controls for values of options: `{ \"DWELL=ms\" = \"mach3-ms\" }`",
+    ),
+    key(
         "confidence",
         Shape::Choice(&["interpreter", "manual", "published"]),
         "checked by the control's own interpreter, taken from its manual, or from published posts",

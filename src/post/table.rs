@@ -3,7 +3,7 @@
 use super::dialect::{Dialect, FullCircleWords, NumberingMode, Spec};
 use super::number::{self, Style};
 use super::pattern::{Item, SLOTS, Slot};
-use crate::target::Capabilities;
+use crate::target::{Capabilities, axes};
 use crate::units::LengthUnit;
 
 /// A word: prefix, spelling of its number, and whether it may be left out when unchanged.
@@ -49,6 +49,8 @@ pub(super) struct MotionTable {
     pub modes: [Box<[u8]>; 3],
     pub modal_motion: bool,
     pub modal_arc_ends: bool,
+    /// Axes that rapid moves say whether they move or not.
+    pub rapid_axes: u8,
     pub drop_zero: bool,
     pub signed_radius: bool,
     pub full_circle: FullCircleWords,
@@ -92,6 +94,7 @@ impl MotionTable {
             modes: [bytes(&codes.per_minute), bytes(&codes.per_revolution), bytes(&codes.inverse_time)],
             modal_motion: spec.modal.motion,
             modal_arc_ends: spec.modal.arc_ends,
+            rapid_axes: if spec.modal.whole_points { axes::X | axes::Y | axes::Z } else { 0 },
             drop_zero: spec.arcs.zero_offsets == "drop",
             signed_radius: spec.arcs.signed_radius,
             full_circle: spec.arcs.full_circle,

@@ -93,6 +93,14 @@ impl Sheet {
             feed,
         }))
     }
+    pub fn position(&self) -> Position {
+        self.at
+    }
+    /// The machine is here after the last block.
+    pub fn at_position(mut self, at: Position) -> Sheet {
+        self.at = at;
+        self
+    }
     pub fn nurbs(mut self, nurbs: Nurbs) -> Sheet {
         self.at = nurbs.points.last().map_or(self.at, |p| p.0);
         let curve = u32::try_from(self.program.nurbs.len()).unwrap();

@@ -52,11 +52,11 @@ fn unknown_keys_are_shown_with_what_was_probably_meant() {
 
 #[test]
 fn wrong_values_say_what_is_wanted() {
-    let text = "inherits = \"fanuc\"\n[post]\ntitle = 7\n[words.x]\ndecimals = 99\nmax = { mm = 5 }\n[arcs]\nfull-circle = \"bear\"\nhelix = \"yes\"\n[limits]\nx = [10, -10]\n";
+    let text = "inherits = \"fanuc\"\n[post]\ntitle = 7\n[words.x]\ndecimals = 99\nmax = { mm = 5 }\n[arcs]\nfull-circle = \"bares\"\nhelix = \"yes\"\n[limits]\nx = [10, -10]\n";
     assert_eq!(
         complaints(text),
         [
-            "E0704 `\"bear\"` `arcs.full-circle` is one of \"bare\", \"one-end-word\", \"end-words\", \"split\"; did you mean \"bare\"?, not \"bear\"",
+            "E0704 `\"bares\"` `arcs.full-circle` is one of \"bare\", \"one-end-word\", \"end-words\", \"split\"; did you mean \"bare\"?, not \"bares\"",
             "E0704 `\"yes\"` `arcs.helix` is `true` or `false`, not \"yes\"",
             "E0704 `[10, -10]` `limits.x` is a list of two numbers, the smaller first, not [10, -10]",
             "E0704 `7` `post.title` is a text, not 7",

@@ -2,44 +2,100 @@
 
 use super::build::{Sheet, builtin};
 use crate::ir::{Coolant, Spindle};
-use crate::target::{BlockKind, axes};
+use crate::cl::CycleKind;
+use crate::target::{BlockKind, Motion, Plane, Position, axes};
 use crate::units::LengthUnit;
 
-/// A program that goes through every kind of block.
+/// A program that goes through every kind of block that the control has.
 fn tour(name: &str, unit: LengthUnit) -> String {
-    let sheet = Sheet::new(builtin(name), unit, None).title("Cam) plate %\nØ40; G0 X0");
+    let mut sheet = Sheet::new(builtin(name), unit, None).title("Cam) plate %\nØ40; G0 X0");
     let step = 10i64.pow(u32::from(sheet.program.capabilities.grid.linear_decimals));
-    sheet
+    sheet = sheet
         .event(BlockKind::ToolChange(0))
         .event(BlockKind::Spindle(Spindle::On { rpm: 1200.0, clockwise: true }))
         .event(BlockKind::Coolant(Coolant::Flood))
         .event(BlockKind::BeginOperation("FINISH".into()))
-        .event(BlockKind::PathTolerance(None))
-        .rapid(0, 0, 5 * step, axes::Z)
-        .rapid(10 * step, 0, 5 * step, axes::X | axes::Y)
-        .line_z(-step)
-        .arc(10 * step, 0, [-10 * step, 0], false)
-        .arc(-10 * step, 0, [-10 * step, 0], false)
+        .event(BlockKind::PathTolerance(Some(0.0025)))
+        .rapid(10 * step, 0, 5 * step, axes::X | axes::Y | axes::Z)
+        .line_z(-step);
+    sheet = arcs(sheet, step);
+    sheet = sheet
         .event(BlockKind::Dwell(0.5))
         .event(BlockKind::Comment("MSG, not a message".into()))
         .event(BlockKind::Stop)
+        .rapid(10 * step, 0, 50 * step, axes::Z);
+    sheet = drilling(sheet);
+    sheet
         .event(BlockKind::Coolant(Coolant::Off))
         .event(BlockKind::Spindle(Spindle::Off))
+        .event(BlockKind::ToolChange(0))
+        .event(BlockKind::Spindle(Spindle::On { rpm: 900.5, clockwise: false }))
+        .event(BlockKind::Spindle(Spindle::On { rpm: 800.0, clockwise: false }))
+        .rapid(0, 0, 5 * step, axes::X | axes::Y | axes::Z)
+        .line_z(0)
+        .event(BlockKind::Insert("M64".into()))
+        .line(step, step)
         .event(BlockKind::End)
         .text()
 }
 
-#[test]
-fn a_tour_of_linuxcnc() {
-    insta::assert_snapshot!("tour_linuxcnc", tour("linuxcnc", LengthUnit::Millimetre));
+/// A whole circle, a long arc, a helix, a half turn in every plane.
+fn arcs(sheet: Sheet, step: i64) -> Sheet {
+    let centre = step * 10i64.pow(u32::from(sheet.program.capabilities.grid.centre_decimals))
+        / 10i64.pow(u32::from(sheet.program.capabilities.grid.linear_decimals));
+    let planes: Vec<Plane> = sheet.program.capabilities.planes.iter().copied().collect();
+    let feed = sheet.minute();
+    let mut sheet = sheet
+        .arc(10 * step, 0, [-10 * centre, 0], false)
+        .arc(0, 10 * step, [-10 * centre, 0], true)
+        .arc(0, -10 * step, [0, -10 * centre], true);
+    let to = Position { x: 10 * step, y: 0, z: -2 * step, r: 0 };
+    let helix = Motion::Arc { to, plane: Plane::Xy, centre: [0, 10 * centre], clockwise: false, feed };
+    sheet = sheet.event(BlockKind::Motion(helix)).at_position(to);
+    for plane in planes.into_iter().filter(|p| *p != Plane::Xy) {
+        let to = match plane {
+            Plane::Zx => Position { x: -10 * step, ..sheet.position() },
+            _ => Position { y: sheet.position().y + 20 * step, ..sheet.position() },
+        };
+        let centre = match plane {
+            Plane::Zx => [0, -10 * centre],
+            _ => [10 * centre, 0],
+        };
+        let motion = Motion::Arc { to, plane, centre, clockwise: true, feed };
+        sheet = sheet.event(BlockKind::Motion(motion)).at_position(to);
+    }
+    let at = sheet.position();
+    sheet.line(at.x + step, at.y)
 }
-#[test]
-fn a_tour_of_fanuc() {
-    insta::assert_snapshot!("tour_fanuc", tour("fanuc", LengthUnit::Millimetre));
+
+/// Three holes of every cycle that is kept, two of them at the same place.
+fn drilling(mut sheet: Sheet) -> Sheet {
+    let kinds = [
+        CycleKind::Drill,
+        CycleKind::Dwell,
+        CycleKind::Deep,
+        CycleKind::ChipBreak,
+        CycleKind::Tap { pitch: 1.5, left: false },
+        CycleKind::Tap { pitch: 1.25, left: true },
+        CycleKind::Bore,
+        CycleKind::BoreDwell,
+        CycleKind::BoreStop,
+        CycleKind::BoreOrient { shift: 0.25 },
+    ];
+    for kind in kinds {
+        if sheet.program.capabilities.cycles.contains(&kind.name()) {
+            sheet = sheet.drill(kind, &[(10, 20), (10, 30), (10, 30)]);
+        }
+    }
+    sheet
 }
+
 #[test]
-fn a_tour_of_grbl_in_inches() {
-    insta::assert_snapshot!("tour_grbl_inch", tour("grbl", LengthUnit::Inch));
+fn a_tour_of_every_control() {
+    for name in crate::post::builtin_names() {
+        insta::assert_snapshot!(format!("tour_{name}"), tour(name, LengthUnit::Millimetre));
+        insta::assert_snapshot!(format!("tour_{name}_inch"), tour(name, LengthUnit::Inch));
+    }
 }
 
 #[test]

@@ -1,10 +1,12 @@
 //! The writer on hand-made target programs, dialect by dialect.
 
 mod build;
+mod docs;
 mod files;
 mod frame;
 mod lint;
 mod moves;
+mod rows;
 mod random;
 
 use super::*;
