@@ -9,7 +9,10 @@ const POST: &str = include_str!("data/posts/router.post.toml");
 #[test]
 fn the_guide_shows_the_file_that_is_tested() {
     let guide = include_str!("../docs/posts.md");
-    assert!(guide.contains(&format!("```toml\n{POST}```")), "the example in docs/posts.md is not the tested file");
+    assert!(
+        guide.contains(&format!("```toml\n{POST}```")),
+        "the example in docs/posts.md is not the tested file"
+    );
 }
 
 #[test]

@@ -140,7 +140,8 @@ fn prove(
     sink: &mut Sink,
 ) -> Option<Proven> {
     let emitted = written(&ready.dialect, target, &cl.origins, sink)?;
-    let mut proven = verify::prove(cl, target, emitted, ready.dialect.control_with(&ready.capabilities.options), sink)?;
+    let mut proven =
+        verify::prove(cl, target, emitted, ready.dialect.control_with(&ready.capabilities.options), sink)?;
     proven.locate(|span| {
         let file = sources.file(span.file);
         let (line, column) = file.line_column(span.start);

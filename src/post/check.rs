@@ -105,7 +105,10 @@ fn check_arc(dialect: &Dialect, errors: &mut Vec<Diagnostic>) {
         let path = if own_helix { path } else { "patterns.arc" };
         let all = |words: [&str; 2]| words.iter().all(|w| has(items, w));
         if !all(["x", "y"]) && !has(items, "sweep") {
-            say(path, "the pattern says neither where an arc ends (`x`, `y`) nor how far it turns (`sweep`)".into());
+            say(
+                path,
+                "the pattern says neither where an arc ends (`x`, `y`) nor how far it turns (`sweep`)".into(),
+            );
         }
         if !all(["i", "j"]) && !all(["cx", "cy"]) && !has(items, "radius") {
             say(path, "the pattern has no centre (`i`, `j` or `cx`, `cy`) and no `radius`".into());

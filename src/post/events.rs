@@ -296,14 +296,14 @@ impl<'a> Events<'a> {
     ) -> Option<i64> {
         let spec = &self.writer.dialect.spec;
         let scale = dwell_scale(unit, &self.program.capabilities);
-        let range =
-            spec.words.get("dwell").and_then(|w| w.max).map_or(f64::INFINITY, |m| m.of(self.unit()));
+        let range = spec.words.get("dwell").and_then(|w| w.max).map_or(f64::INFINITY, |m| m.of(self.unit()));
         let value = seconds * scale;
         let steps = number::steps(value, decimals).filter(|s| *s > 0 || seconds == 0.0);
         let fits = seconds >= 0.0 && seconds <= max && value <= range;
         let steps = steps.filter(|_| fits);
         if steps.is_none() {
-            let message = format!("a dwell of {seconds} s does not fit this control's word (at most {max} s)");
+            let message =
+                format!("a dwell of {seconds} s does not fit this control's word (at most {max} s)");
             self.error(&codes::post::WORD_RANGE, message);
         }
         steps

@@ -92,11 +92,8 @@ impl Lint<'_> {
     /// Words that nothing prints.
     fn words(&mut self) {
         let spec = &self.dialect.spec;
-        let printed: BTreeSet<&str> = patterns(self.dialect)
-            .into_iter()
-            .flat_map(|(_, _, items)| items)
-            .map(String::as_str)
-            .collect();
+        let printed: BTreeSet<&str> =
+            patterns(self.dialect).into_iter().flat_map(|(_, _, items)| items).map(String::as_str).collect();
         let slots: Vec<&str> = super::pattern::Slot::ALL.iter().map(|s| s.name()).collect();
         let built_in = base_words();
         for name in spec.words.keys() {

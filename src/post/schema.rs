@@ -262,8 +262,7 @@ const ROTARY: &[Key] = &[
     ),
 ];
 const DWELL_UNITS: Shape = Shape::Choice(&["s", "ms", "0.01s", "option"]);
-const DWELL_UNIT_DOC: &str =
-    "unit of the number; `option`: a setting of the machine, which the option `DWELL` declares as `s` or `ms`";
+const DWELL_UNIT_DOC: &str = "unit of the number; `option`: a setting of the machine, which the option `DWELL` declares as `s` or `ms`";
 const DWELL: &[Key] = &[
     key("block", Shape::TextList, "what a dwell prints, with the word `dwell`"),
     key("unit", DWELL_UNITS, DWELL_UNIT_DOC),

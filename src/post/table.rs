@@ -130,14 +130,7 @@ fn axis_modal(spec: &Spec, slot: Slot) -> bool {
     match slot {
         Slot::X | Slot::Y | Slot::Z | Slot::Rotary => spec.modal.axes,
         Slot::Feed => spec.modal.feed,
-        Slot::I
-        | Slot::J
-        | Slot::K
-        | Slot::Cx
-        | Slot::Cy
-        | Slot::Cz
-        | Slot::Radius
-        | Slot::Sweep => false,
+        Slot::I | Slot::J | Slot::K | Slot::Cx | Slot::Cy | Slot::Cz | Slot::Radius | Slot::Sweep => false,
     }
 }
 

@@ -28,14 +28,18 @@ const fn row(scope: Scope, name: &'static str, doc: &'static str) -> Variable {
     Variable { name, scope, doc }
 }
 
-use Scope::{Cycle, Operation, Everywhere, ToolChange};
+use Scope::{Cycle, Everywhere, Operation, ToolChange};
 
 /// All variables; `options.NAME` besides, for every name in `[options]`.
 pub const VARIABLES: &[Variable] = &[
     row(Everywhere, "post.name", "name of the post"),
     row(Everywhere, "post.title", "`post.title`"),
     row(Everywhere, "program.title", "`PARTNO`, made harmless for comments; empty when there is none"),
-    row(Everywhere, "program.name", "its letters and digits, upper case, at most `file.name-max`; `PART` without any"),
+    row(
+        Everywhere,
+        "program.name",
+        "its letters and digits, upper case, at most `file.name-max`; `PART` without any",
+    ),
     row(Everywhere, "program.number", "`file.number`"),
     row(Everywhere, "program.units", "`mm` or `inch`"),
     row(Everywhere, "tools", "all tools, each as `tool` in tool changes"),

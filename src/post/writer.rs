@@ -123,8 +123,7 @@ impl<'a> Writer<'a> {
         if self.out.len() - self.line_start > self.limit {
             self.check_length();
         }
-        self.continued =
-            !self.table.continuation.is_empty() && self.out.ends_with(&self.table.continuation);
+        self.continued = !self.table.continuation.is_empty() && self.out.ends_with(&self.table.continuation);
         self.out.extend_from_slice(self.table.newline);
         self.line += 1;
     }

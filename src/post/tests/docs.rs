@@ -77,5 +77,8 @@ fn the_guide_has_every_key_and_every_variable() {
     if std::env::var("UPDATE_DOCS").is_ok() {
         std::fs::write(GUIDE, &wanted).unwrap();
     }
-    assert!(guide == wanted || std::env::var("UPDATE_DOCS").is_ok(), "run UPDATE_DOCS=1 cargo test --lib guide");
+    assert!(
+        guide == wanted || std::env::var("UPDATE_DOCS").is_ok(),
+        "run UPDATE_DOCS=1 cargo test --lib guide"
+    );
 }

@@ -1,8 +1,8 @@
 //! Frames, comments, dwells, tool changes: whole small programs, as snapshots.
 
 use super::build::{Sheet, builtin};
-use crate::ir::{Coolant, Spindle};
 use crate::cl::CycleKind;
+use crate::ir::{Coolant, Spindle};
 use crate::target::{BlockKind, Motion, Plane, Position, axes};
 use crate::units::LengthUnit;
 

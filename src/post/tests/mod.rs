@@ -6,8 +6,8 @@ mod files;
 mod frame;
 mod lint;
 mod moves;
-mod rows;
 mod random;
+mod rows;
 
 use super::*;
 use build::builtin;

@@ -175,7 +175,8 @@ fn a_program_never_ends_or_drills_in_another_plane() {
     let feed = home("fanuc").minute();
     let to = Position { x: 20_000, ..Position::default() };
     let arc = Motion::Arc { to, plane: Plane::Zx, centre: [0, 10_000], clockwise: true, feed };
-    let sheet = home("fanuc").event(BlockKind::Motion(arc)).at_position(to).drill(CycleKind::Drill, &[(1, 1)]);
+    let sheet =
+        home("fanuc").event(BlockKind::Motion(arc)).at_position(to).drill(CycleKind::Drill, &[(1, 1)]);
     assert_eq!(sheet.rest()[1..3], ["G17", "G99 G81 X1. Y1. Z-10. R2. F300."]);
     let sheet = home("fanuc").event(BlockKind::Motion(arc)).at_position(to).event(BlockKind::End);
     assert_eq!(sheet.rest()[1], "G17");
@@ -303,8 +304,7 @@ fn tool_changes() {
 #[test]
 fn tools_by_name_and_speeds_that_change_alone() {
     let set = [("options.TOOLS".to_owned(), "name".to_owned())];
-    let dialect =
-        load_with("sinumerik", &set, &MemoryFiles::default(), &mut SourceMap::default()).unwrap();
+    let dialect = load_with("sinumerik", &set, &MemoryFiles::default(), &mut SourceMap::default()).unwrap();
     let sheet = Sheet::new(dialect, LengthUnit::Millimetre, None).event(BlockKind::ToolChange(0));
     assert_eq!(sheet.body()[2], "T=\"T1\" M6");
     let on = |rpm| BlockKind::Spindle(Spindle::On { rpm, clockwise: true });
@@ -338,13 +338,7 @@ fn cycles_are_kept_where_the_control_has_them_and_levels_are_said_with_the_first
     };
     assert_eq!(
         drill("fanuc"),
-        [
-            "G99 G83 X10. Y20. Z-10. R2. Q4. F300.",
-            "Y30.",
-            "X10. Y30.",
-            "G80",
-            "G1 X1. Y1. Z0. F300."
-        ]
+        ["G99 G83 X10. Y20. Z-10. R2. Q4. F300.", "Y30.", "X10. Y30.", "G80", "G1 X1. Y1. Z0. F300."]
     );
     assert_eq!(
         drill("sinumerik"),
@@ -363,7 +357,10 @@ fn cycles_are_kept_where_the_control_has_them_and_levels_are_said_with_the_first
     let klartext = drill("heidenhain");
     assert_eq!(klartext[9..12], ["L X+10 Y+20 R0 FMAX M99", "L Y+30 R0 FMAX M99", "L X+10 Y+30 R0 FMAX M99"]);
     for name in ["grbl", "grblhal", "marlin"] {
-        assert!(builtin(name).capabilities(LengthUnit::Millimetre, None).unwrap().cycles.is_empty(), "{name}");
+        assert!(
+            builtin(name).capabilities(LengthUnit::Millimetre, None).unwrap().cycles.is_empty(),
+            "{name}"
+        );
     }
 }
 
@@ -389,7 +386,11 @@ fn the_return_level_is_that_of_the_cycle() {
 
 #[test]
 fn klartext_blocks_are_numbered_from_0_one_by_one_and_a_continued_block_once() {
-    let text = Sheet::mm("heidenhain").title("Plate").drill(CycleKind::Drill, &[(1, 2)]).event(BlockKind::End).text();
+    let text = Sheet::mm("heidenhain")
+        .title("Plate")
+        .drill(CycleKind::Drill, &[(1, 2)])
+        .event(BlockKind::End)
+        .text();
     let lines: Vec<&str> = text.lines().collect();
     assert_eq!(lines[0], "0 BEGIN PGM PLATE MM");
     let mut wanted = 0;
@@ -426,15 +427,24 @@ fn no_text_leaves_its_comment_on_any_control() {
         let text = Sheet::mm(name).title(bad).event(BlockKind::Comment(bad.into())).text();
         for line in text.lines() {
             assert!(line.bytes().all(|b| b.is_ascii_graphic() || b == b' '), "{name}: {line:?}");
-            assert!(line.trim() == "%" || line.matches('%').count() == line.matches("%_N_").count(), "{name}: {line}");
+            assert!(
+                line.trim() == "%" || line.matches('%').count() == line.matches("%_N_").count(),
+                "{name}: {line}"
+            );
             let inside = line.find(comments.open.trim()).filter(|_| line.contains("G0 X99"));
             if let Some(start) = inside {
                 let body = &line[start + comments.open.len()..];
                 let body = body.strip_suffix(&comments.close).unwrap_or(body);
                 let closes = !comments.close.is_empty() && body.contains(&comments.close);
-                assert!(!closes && !body.to_uppercase().starts_with("MSG") || name != "linuxcnc", "{name}: {line}");
+                assert!(
+                    !closes && !body.to_uppercase().starts_with("MSG") || name != "linuxcnc",
+                    "{name}: {line}"
+                );
             } else {
-                assert!(!line.contains("G0 X99") || name == "apt-cl" && line.starts_with("PARTNO/"), "{name}: {line}");
+                assert!(
+                    !line.contains("G0 X99") || name == "apt-cl" && line.starts_with("PARTNO/"),
+                    "{name}: {line}"
+                );
             }
         }
     }
