@@ -205,3 +205,35 @@ fn pictures_are_drawn_in_the_form_of_their_name() {
         assert!(stderr(&output).contains(id), "{args:?}: {}", stderr(&output));
     }
 }
+
+#[test]
+fn a_post_that_writes_what_is_not_meant_exits_4_writes_nothing_and_shows_what_was_lowered() {
+    let scratch = Scratch::new("unproven");
+    scratch
+        .write("plate.apt", PLATE.replace("LINEAR", "CIRCUL"))
+        .write("swapped.post.toml", "inherits = \"grbl\"\n[codes]\narc-cw = \"G3\"\narc-ccw = \"G2\"\n")
+        .write("out.gcode", "old");
+    let failed = scratch.run(&["build", "plate.apt", "--post", "swapped.post.toml", "-o", "out.gcode"]);
+    assert_eq!(code(&failed), 4, "{}", stderr(&failed));
+    assert!(stderr(&failed).contains("E0801"), "{}", stderr(&failed));
+    assert_eq!(scratch.read("out.gcode"), "old");
+    let shown = scratch.run(&["build", "plate.apt", "--post", "swapped.post.toml", "--emit", "target,nc"]);
+    assert_eq!(code(&shown), 4, "{}", stderr(&shown));
+    let target = String::from_utf8_lossy(&shown.stdout).into_owned();
+    assert!(target.contains("arc c"), "{target}");
+    assert!(!target.contains("G1"), "an unproven program is shown: {target}");
+    assert_eq!(scratch.names(), ["out.gcode", "plate.apt", "swapped.post.toml"]);
+}
+
+#[test]
+fn coolant_survives_a_tool_change_and_one_kind_replaces_the_other() {
+    let scratch = Scratch::new("coolant");
+    let second = "COOLNT/ FLOOD\nP2 = PROFIL/ C1, DEPTH, 6\nT2 = CUTTER/ FLAT, 10, NUMBER, 2\nLOADTL/ T2\nSPINDL/ 900\nCOOLNT/ MIST\nPROFIL/ C1, DEPTH, 7\nFINI";
+    scratch.write("plate.apt", PLATE.replace("FINI", second));
+    for post in ["linuxcnc", "fanuc", "grbl"] {
+        let built = scratch.run(&["build", "plate.apt", "--post", post, "-o", "-"]);
+        assert_eq!(code(&built), 0, "{post}: {}", stderr(&built));
+        let text = String::from_utf8_lossy(&built.stdout).into_owned();
+        assert!(text.contains("M8") && (post == "grbl" || text.contains("M7")), "{text}");
+    }
+}

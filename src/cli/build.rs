@@ -58,6 +58,12 @@ fn build_with(
     if let Some(path) = &args.deps {
         output::write_all(&[deps::product(path, args.deps_format, &compiled, &planned)])?;
     }
+    if status == Status::NotProven {
+        // What was lowered may be looked at; nothing that a machine could run is written.
+        let shown = planned.iter().filter(|p| p.stage != Stage::Nc && p.path.as_os_str() == "-");
+        let shown: Vec<Product> = shown.filter_map(|p| p.make(&compiled)).collect();
+        output::write_all(&shown)?;
+    }
     if status != Status::Done {
         return Ok(status);
     }

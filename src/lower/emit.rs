@@ -58,6 +58,7 @@ pub(super) struct Emitter<'a> {
     stale: [i64; 4],
     pub(super) feed: Option<Feed>,
     pub(super) rpm: f64,
+    coolant: Coolant,
     pub(super) operation: u32,
     complaints: Vec<(&'static str, Handle<Origin>)>,
     pub(super) blocks: Vec<Block>,
@@ -91,6 +92,7 @@ impl<'a> Emitter<'a> {
             stale: [0; 4],
             feed: None,
             rpm: 0.0,
+            coolant: Coolant::Off,
             operation: 0,
             complaints: Vec::new(),
             blocks: Vec::new(),
@@ -200,6 +202,10 @@ impl<'a> Emitter<'a> {
     fn load_tool(&mut self, tool: Handle<crate::ir::Tool>) {
         let index = self.tools.index(tool);
         self.event(BlockKind::ToolChange(index));
+        // A post may stop the coolant for the change.
+        if self.coolant != Coolant::Off {
+            self.event(BlockKind::Coolant(self.coolant));
+        }
         self.forget();
         self.exact = None;
         self.rpm = 0.0;
@@ -240,8 +246,7 @@ impl<'a> Emitter<'a> {
             Coolant::Mist => self.capabilities.mist,
         };
         if possible {
-            self.event(BlockKind::Coolant(coolant));
-            return;
+            return self.switch_coolant(coolant);
         }
         let other = match coolant {
             Coolant::Mist if self.capabilities.flood => Some(Coolant::Flood),
@@ -255,8 +260,18 @@ impl<'a> Emitter<'a> {
             self.complain(&codes::lowering::COOLANT, message);
         }
         if let Some(other) = other {
-            self.event(BlockKind::Coolant(other));
+            self.switch_coolant(other);
         }
+    }
+
+    /// Flood and mist are switched on one by one, and off together: one does not replace the other.
+    fn switch_coolant(&mut self, coolant: Coolant) {
+        let off = Coolant::Off;
+        if self.coolant != off && coolant != off && coolant != self.coolant {
+            self.event(BlockKind::Coolant(off));
+        }
+        self.coolant = coolant;
+        self.event(BlockKind::Coolant(coolant));
     }
 
     fn optional_stop(&mut self) {

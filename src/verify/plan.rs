@@ -2,12 +2,10 @@
 //! and which piece, and what feed, spindle and tool were in force for each contour.
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 use crate::arena::Handle;
 use crate::cl::{Cl, RecordKind};
-use crate::geom::curve::CurveRef;
-use crate::ir::{Feed, Origin, Spindle};
+use crate::ir::{Coolant, Feed, Origin, Spindle};
 use crate::target::{BlockKind, TargetProgram};
 
 /// State that the CL data puts in force.
@@ -17,6 +15,8 @@ pub(super) struct Asked {
     pub feed: f64,
     /// Spindle, rev/min, negative counter-clockwise.
     pub spindle: f64,
+    /// Flood and mist.
+    pub coolant: (bool, bool),
 }
 
 /// Where a block stands.
@@ -100,10 +100,10 @@ impl Lines {
     }
 }
 
-/// What was asked for contours, and the feeds of everything else, per operation.
+/// What was asked for every record, and the feeds of everything beside the contours, per operation.
 #[derive(Debug, Default)]
 pub(super) struct Orders {
-    contours: Vec<(Option<usize>, CurveRef, Asked)>,
+    records: Vec<Asked>,
     feeds: BTreeMap<Option<usize>, Vec<f64>>,
     plunges: BTreeMap<Option<usize>, Vec<Option<f64>>>,
 }
@@ -118,19 +118,20 @@ impl Orders {
             match &record.kind {
                 RecordKind::BeginOperation(index) => operation = Some(*index as usize),
                 RecordKind::Spindle(spindle) => asked.spindle = signed(*spindle),
+                RecordKind::Coolant(c) => asked.coolant = (*c == Coolant::Flood, *c == Coolant::Mist),
                 RecordKind::Feed(f) => feed = *f,
                 RecordKind::BeginCycle(cycle) => {
                     let into = per_minute(cycle.feed, asked.spindle);
                     orders.feeds.entry(operation).or_default().extend((into > 0.0).then_some(into));
                 }
                 RecordKind::Contour(contour) => {
-                    orders.contours.push((operation, contour.curve.clone(), asked));
                     orders.feeds.entry(operation).or_default().extend(contour.plunge_feed);
                     orders.plunges.entry(operation).or_default().push(contour.plunge_feed);
                 }
                 _ => {}
             }
             asked.feed = per_minute(feed, asked.spindle);
+            orders.records.push(asked);
             let feeds = orders.feeds.entry(operation).or_default();
             if feeds.last() != Some(&asked.feed) && asked.feed > 0.0 {
                 feeds.push(asked.feed);
@@ -139,12 +140,9 @@ impl Orders {
         orders
     }
 
-    /// What was asked for the contour along this curve.
-    pub(super) fn contour(&self, operation: usize, curve: &CurveRef) -> Option<Asked> {
-        self.contours
-            .iter()
-            .find(|(op, c, _)| *op == Some(operation) && Arc::ptr_eq(c, curve))
-            .map(|(.., asked)| *asked)
+    /// What was in force at the CL record with this index.
+    pub(super) fn record(&self, index: u32) -> Option<Asked> {
+        self.records.get(index as usize).copied()
     }
 
     /// The feed for plunging, where all contours of the operation have the same.

@@ -2,6 +2,7 @@
 
 use super::finding::{Finding, Text};
 use super::{Case, Placed};
+use crate::cl::RecordKind;
 use crate::diag::codes::verification as codes;
 use crate::target::{BlockKind, FeedWord, Motion, power_of_ten};
 
@@ -37,6 +38,9 @@ pub(super) fn check(case: &Case<'_>, placed: &Placed<'_>) -> Vec<Finding> {
     if let Some(text) = spindle(case, placed) {
         say(&codes::NOT_READY, text);
     }
+    if let Some(text) = coolant(case, placed) {
+        say(&codes::NOT_READY, text);
+    }
     if let Some(text) = feed(case, placed) {
         say(&codes::WRONG_FEED, text);
     }
@@ -53,7 +57,33 @@ fn tool(case: &Case<'_>, placed: &Placed<'_>) -> Option<Text> {
     })
 }
 
-/// What was asked of a contour's spindle.
+/// The coolant that was asked for flows, as far as the control can switch it; an `INSERT` may have switched more on.
+fn coolant(case: &Case<'_>, placed: &Placed<'_>) -> Option<Text> {
+    let (flood, mist) = asked(case, placed)?.coolant;
+    let can = &case.target.capabilities;
+    let wanted = match (flood, mist) {
+        (true, _) if !can.flood => (false, can.mist),
+        (_, true) if !can.mist => (can.flood, false),
+        other => other,
+    };
+    let got = (placed.cut.coolant.flood, placed.cut.coolant.mist);
+    let more_is_fine = case.target.blocks.iter().any(|b| matches!(b.kind, BlockKind::Insert(_)));
+    let missing = wanted.0 && !got.0 || wanted.1 && !got.1;
+    (missing || got != wanted && !more_is_fine).then(|| {
+        Text::default().words(format!("a cut with {} in place of {}", washing(got), washing(wanted)))
+    })
+}
+
+fn washing(coolant: (bool, bool)) -> &'static str {
+    match coolant {
+        (true, true) => "flood and mist",
+        (true, false) => "flood coolant",
+        (false, true) => "mist coolant",
+        (false, false) => "no coolant",
+    }
+}
+
+/// What was asked of the spindle.
 fn spindle(case: &Case<'_>, placed: &Placed<'_>) -> Option<Text> {
     let wanted = asked(case, placed)?.spindle;
     let got = placed.cut.spindle;
@@ -65,11 +95,16 @@ fn turning(rpm: f64) -> String {
     format!("{} rev/min {}", rpm.abs(), if rpm < 0.0 { "counter-clockwise" } else { "clockwise" })
 }
 
-/// Feed and spindle that were asked for the contour this move is part of.
+/// What was asked for the statement this move is part of.
 fn asked(case: &Case<'_>, placed: &Placed<'_>) -> Option<super::plan::Asked> {
-    let id = case.target.blocks.get(placed.block?)?.piece?;
-    let piece = case.target.pieces.get(id.0 as usize)?;
-    case.orders.contour(piece.operation as usize, &piece.curve)
+    case.orders.record(case.target.blocks.get(placed.block?)?.record?)
+}
+
+/// Whether the move has no feed but the one in force: it cuts along a contour or is asked for point by point.
+fn is_plain(case: &Case<'_>, placed: &Placed<'_>) -> bool {
+    let Some(block) = placed.block.and_then(|b| case.target.blocks.get(b)) else { return false };
+    let record = block.record.and_then(|r| case.cl.records.get(r as usize)).map(|r| &r.kind);
+    block.piece.is_some() || matches!(record, Some(RecordKind::Linear(_) | RecordKind::Circle(_)))
 }
 
 fn feed(case: &Case<'_>, placed: &Placed<'_>) -> Option<Text> {
@@ -86,7 +121,7 @@ fn feed(case: &Case<'_>, placed: &Placed<'_>) -> Option<Text> {
     }
     let near = |wanted: f64| (got - wanted).abs() <= FEED_TOLERANCE * wanted + 0.5 * feed_step(case);
     let said = |wanted: f64| text.clone().words("a feed of ").feed(got).words(" in place of ").feed(wanted);
-    if let Some(asked) = asked(case, placed) {
+    if let Some(asked) = asked(case, placed).filter(|_| is_plain(case, placed)) {
         return (!near(asked.feed)).then(|| said(asked.feed));
     }
     let operation = case.context(placed.block).operation;

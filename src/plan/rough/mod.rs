@@ -1,6 +1,6 @@
 //! `ROUGH` of a plate cam: from a blank to the contour with its allowance.
 //!
-//! Two plans are made and the quicker one is taken:
+//! Two plans are made, and the quicker one that keeps the radial depth is taken:
 //! - **rings** ([`rings`]): curves parallel to the contour, each cut only where the blank reaches out of it, from
 //!   the outermost inwards and to and fro, then once round the contour. The radial depth is the ring spacing
 //!   everywhere, so every pass but its ends cuts at full depth;
@@ -339,8 +339,15 @@ fn effort(plan: &Plan, (area, least): (f64, f64), count: usize, ready: Ready) ->
     }
 }
 
-/// The plan with the shortest path at feed.
+/// The plan with the shortest path at feed among those that keep the radial depth; where none does, the one that
+/// comes nearest to it.
 fn best_plan(job: &Job) -> Option<Plan> {
+    /// How much more than the step the cutter may meet, as a share of it.
+    const MORE: f64 = 1.05;
+    let excess = |plan: &Plan| (plan.engagement - MORE * job.step).max(0.0);
     let plans = [rings::plan(job), circles::plan(job)];
-    plans.into_iter().flatten().min_by(|a, b| a.length().total_cmp(&b.length()))
+    plans
+        .into_iter()
+        .flatten()
+        .min_by(|a, b| excess(a).total_cmp(&excess(b)).then(a.length().total_cmp(&b.length())))
 }
