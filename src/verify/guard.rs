@@ -161,7 +161,7 @@ impl<'a, 'r> Guards<'a, 'r> {
     /// Whether the cutter stood at this place of the plane, as deep or deeper, before this line.
     fn been_as_deep(&self, placed: &Placed<'_>) -> bool {
         let end = placed.cut.end();
-        self.case.moves.iter().take_while(|p| p.line < placed.line).any(|p| {
+        self.case.moves.iter().take(placed.index).rev().any(|p| {
             let q = p.cut.end();
             !p.cut.rapid && (q.xy() - end.xy()).norm() <= ACCURACY && q.z <= end.z + ACCURACY
         })

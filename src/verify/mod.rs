@@ -6,7 +6,9 @@
 //!   ([`follow`], [`measure`]: exact per primitive, bounded and refined, no sampling error above 1e-6 mm);
 //! - no move goes deeper into a finished wall than its tolerance allows; no rapid runs below the part's top but straight
 //!   up, or clear of the blank ([`guard`]);
-//! - every cut has its feed, its spindle and its tool ([`state`]); every block ends where the lowered program says, and
+//! - every arc, helix and drilled hole of the CL data is made as asked ([`circles`], [`holes`]), every dwell, stop and tool
+//!   change stands where it was asked for and nowhere else ([`events`]);
+//! - every cut has its feed, its spindle, its tool and its coolant ([`state`]); every block ends where the lowered program says, and
 //!   the points of the CL data are reached in order ([`points`]);
 //! - the control has nothing to complain about, and nothing is left to its settings; travel limits hold.
 //!
@@ -28,10 +30,13 @@ use crate::readback::{self, EventKind, MachineSetup, Rotary, Trace, TraceMove};
 use crate::target::{BlockKind, TargetProgram};
 
 mod certificate;
+mod circles;
 mod clearance;
+mod events;
 mod finding;
 mod follow;
 mod guard;
+mod holes;
 mod issue;
 mod measure;
 mod path;
@@ -96,7 +101,17 @@ impl Proven {
 struct Placed<'t> {
     line: u32,
     block: Option<usize>,
+    /// Index among the moves.
+    index: usize,
     cut: &'t TraceMove,
+}
+
+/// Something that the text makes happen, with its line and block.
+#[derive(Debug, Clone, Copy)]
+struct Happening<'t> {
+    line: u32,
+    block: Option<usize>,
+    kind: &'t EventKind,
 }
 
 /// Everything the checks look at.
@@ -109,9 +124,13 @@ struct Case<'a> {
     moves: &'a [Placed<'a>],
     /// Statements that are moves themselves (`GOTO`), in order.
     written: &'a [Handle<Origin>],
+    /// Everything that happens, in order.
+    happenings: &'a [Happening<'a>],
+    /// Of each CL record, the range of `happenings` that stand for it.
+    spans: &'a [(usize, usize)],
 }
 
-impl Case<'_> {
+impl<'a> Case<'a> {
     /// Whether the block is a move that the program asks for point by point.
     fn is_written(&self, block: Option<usize>) -> bool {
         let block = block.and_then(|b| self.target.blocks.get(b));
@@ -120,8 +139,19 @@ impl Case<'_> {
         })
     }
 
+    /// What stands for a CL record.
+    fn of_record(&self, record: usize) -> &'a [Happening<'a>] {
+        let (from, to) = self.spans.get(record).copied().unwrap_or_default();
+        self.happenings.get(from..to).unwrap_or_default()
+    }
+    /// First block of a CL record.
+    fn block_of_record(&self, record: usize) -> Option<usize> {
+        let is = |b: &crate::target::Block| b.record.is_some_and(|r| r as usize == record);
+        self.target.blocks.iter().position(is)
+    }
+
     fn context(&self, block: Option<usize>) -> Context {
-        block.and_then(|b| self.contexts.get(b).copied()).unwrap_or(Context { operation: None, tool: None })
+        block.and_then(|b| self.contexts.get(b).copied()).unwrap_or(Context::START)
     }
 }
 
@@ -179,6 +209,8 @@ fn judge(
     let needs = readback::needs(control).ok_or_else(|| readback::UnknownControl(control.to_owned()))?;
     let trace = readback::run(emitted.text.as_bytes(), control, &setup)?;
     let moves = placed(&trace, plan.lines);
+    let happenings = happenings(&trace, plan.lines);
+    let spans = spans(cl, target, &happenings);
     let case = Case {
         cl,
         target,
@@ -187,6 +219,8 @@ fn judge(
         needs,
         moves: &moves,
         written: &plan.written,
+        happenings: &happenings,
+        spans: &spans,
     };
     let (findings, operations) = check(&case, &trace, plan.lines, &emitted.lines);
     let certificate = issue::certificate(&case, &trace, emitted, control, operations);
@@ -241,10 +275,31 @@ fn setup(target: &TargetProgram) -> MachineSetup {
 
 fn placed<'t>(trace: &'t Trace, lines: &Lines) -> Vec<Placed<'t>> {
     let only_moves = |e: &'t readback::TraceEvent| match &e.kind {
-        EventKind::Move(cut) => Some(Placed { line: e.line, block: lines.block(e.line), cut }),
+        EventKind::Move(cut) => Some((e.line, cut)),
         _ => None,
     };
-    trace.events.iter().filter_map(only_moves).collect()
+    let moves = trace.events.iter().filter_map(only_moves).enumerate();
+    moves.map(|(index, (line, cut))| Placed { line, block: lines.block(line), index, cut }).collect()
+}
+
+fn happenings<'t>(trace: &'t Trace, lines: &Lines) -> Vec<Happening<'t>> {
+    let place = |e: &'t readback::TraceEvent| Happening { line: e.line, block: lines.block(e.line), kind: &e.kind };
+    trace.events.iter().map(place).collect()
+}
+
+/// Range of the happenings of every record; the blocks of one record follow each other.
+fn spans(cl: &Cl, target: &TargetProgram, happenings: &[Happening<'_>]) -> Vec<(usize, usize)> {
+    let mut spans = vec![(0, 0); cl.records.len()];
+    for (i, happening) in happenings.iter().enumerate() {
+        let record = happening.block.and_then(|b| target.blocks.get(b)).and_then(|b| b.record);
+        if let Some(span) = record.and_then(|r| spans.get_mut(r as usize)) {
+            if span.0 == span.1 {
+                span.0 = i;
+            }
+            span.1 = i + 1;
+        }
+    }
+    spans
 }
 
 /// All checks; findings in the order of the text.
@@ -271,6 +326,9 @@ fn check(
     findings.extend(others);
     findings.extend(points::block_ends(case, block_lines));
     findings.extend(points::cl_points(case));
+    findings.extend(holes::all(case));
+    findings.extend(circles::all(case));
+    findings.extend(events::all(case));
     findings.sort_by_key(Finding::line);
     (findings, proofs)
 }

@@ -26,11 +26,18 @@ pub(super) struct Context {
     pub operation: Option<usize>,
     /// Index into the target program's tools, if one is loaded.
     pub tool: Option<u32>,
+    /// Coolant that was switched last.
+    pub coolant: Coolant,
+}
+
+impl Context {
+    /// Before the first block.
+    pub(super) const START: Context = Context { operation: None, tool: None, coolant: Coolant::Off };
 }
 
 /// Context of every block.
 pub(super) fn contexts(target: &TargetProgram) -> Vec<Context> {
-    let mut now = Context { operation: None, tool: None };
+    let mut now = Context::START;
     let mut begun = 0;
     target
         .blocks
@@ -42,6 +49,7 @@ pub(super) fn contexts(target: &TargetProgram) -> Vec<Context> {
                     begun += 1;
                 }
                 BlockKind::ToolChange(tool) => now.tool = Some(*tool),
+                BlockKind::Coolant(coolant) => now.coolant = *coolant,
                 _ => {}
             }
             now

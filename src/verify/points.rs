@@ -4,10 +4,10 @@ use super::finding::{Finding, Text};
 use super::{ACCURACY, Case, Placed};
 use crate::cl::RecordKind;
 use crate::diag::codes::verification as codes;
-use crate::geom::{Point2, Point3};
+use crate::geom::{Point2, Point3, Vec2};
 use crate::math::{DEG, TAU};
 use crate::readback::TracePath;
-use crate::target::{BlockKind, Motion, Position};
+use crate::target::{BlockKind, Motion, Plane, Position};
 
 /// The move against the declared travel of X, Y and Z.
 pub(super) fn travel(case: &Case<'_>, placed: &Placed<'_>) -> Vec<Finding> {
@@ -60,7 +60,7 @@ fn extent(path: &TracePath) -> (Range, Range) {
                 let ahead = ahead - (ahead / TAU).floor() * TAU;
                 if ahead <= sweep.abs() {
                     let (s, c) = crate::math::sin_cos(angle);
-                    points.push(centre + crate::geom::Vec2::new(c, s) * r);
+                    points.push(centre + Vec2::new(c, s) * r);
                 }
             }
             of(&points)
@@ -82,8 +82,8 @@ pub(super) fn block_ends(case: &Case<'_>, lines: &[(u32, u32)]) -> Vec<Finding> 
                 wrong_end(case, (motion, set), placed).or_else(|| wrong_turn(turn, placed))
             }
             Some(BlockKind::Motion(_)) => None,
-            Some(BlockKind::Insert(_)) => None,
-            Some(BlockKind::Begin | BlockKind::End | BlockKind::ToolChange(_)) => dives(placed),
+            Some(BlockKind::Insert(_) | BlockKind::Hole(_)) => None,
+            Some(BlockKind::Begin | BlockKind::End | BlockKind::ToolChange(_) | BlockKind::EndCycle) => dives(placed),
             _ => Some(Text::default().words("a motion that the lowered program does not have")),
         };
         findings.extend(text.map(|t| Finding::new(&codes::NOT_AS_LOWERED, placed.line, placed.block, t)));
@@ -214,26 +214,44 @@ fn wrong_turn(wanted: Option<f64>, placed: &Placed<'_>) -> Option<Text> {
     })
 }
 
-/// An arc with another centre or sense than lowered, or none.
+/// An arc as the control draws it: its plane's third axis, centre minus start in the plane, and sense.
+fn drawn(path: &TracePath) -> Option<(usize, Vec2, bool)> {
+    match path {
+        TracePath::Arc { from, centre, sweep, .. } => Some((2, centre - from, *sweep < 0.0)),
+        TracePath::Tilted(arc) => {
+            let offset = arc.centre - arc.from;
+            let along = |axis: usize| arc.axis[axis].abs() > 0.5;
+            let [first, second, third] = [Plane::Zx, Plane::Yz, Plane::Xy].map(Plane::axes).into_iter().find(|a| along(a[2]))?;
+            let clockwise = (arc.sweep < 0.0) == (arc.axis[third] > 0.0);
+            Some((third, Vec2::new(offset[first], offset[second]), clockwise))
+        }
+        _ => None,
+    }
+}
+
+/// An arc with another plane, centre or sense than lowered, or none. A control that goes by the end's angle adds a line
+/// to the arc.
 #[allow(clippy::cast_precision_loss)]
 fn wrong_arc(case: &Case<'_>, motion: &Motion, placed: &Placed<'_>) -> Option<Text> {
-    let drawn = match &placed.cut.path {
-        TracePath::Arc { from, centre, sweep, .. } => Some((centre - from, *sweep < 0.0)),
-        _ => None,
-    };
-    let Motion::Arc { centre, clockwise, .. } = motion else {
+    let before = case.moves.get(..=placed.index).unwrap_or_default();
+    let of_block = before.iter().rev().take_while(|p| p.block == placed.block);
+    let drawn = of_block.filter_map(|p| drawn(&p.cut.path)).last();
+    let Motion::Arc { centre, plane, clockwise, .. } = motion else {
         return drawn.map(|_| Text::default().words("an arc in place of a line or curve"));
     };
-    let Some((offset, sense)) = drawn else {
+    let Some((third, offset, sense)) = drawn else {
         return Some(Text::default().words("no arc where the lowered program has one"));
     };
+    if third != plane.axes()[2] {
+        return Some(Text::default().words("an arc in another plane than lowered"));
+    }
     if sense != *clockwise {
         let name = |clockwise: bool| if clockwise { "clockwise" } else { "counter-clockwise" };
         let text = format!("an arc that runs {} in place of {}", name(sense), name(*clockwise));
         return Some(Text::default().words(text));
     }
     let step = case.target.capabilities.grid.centre_step();
-    let wanted = crate::geom::Vec2::new(centre[0] as f64, centre[1] as f64) * step;
+    let wanted = Vec2::new(centre[0] as f64, centre[1] as f64) * step;
     // With a table the offsets may be turned; their length stays.
     let off = if case.target.capabilities.rotary.is_some() {
         (offset.norm() - wanted.norm()).abs()

@@ -4,11 +4,12 @@ use super::finding::{Finding, Text};
 use super::{Case, Placed};
 use crate::cl::RecordKind;
 use crate::diag::codes::verification as codes;
+use crate::ir::Coolant;
 use crate::target::{BlockKind, FeedWord, Motion, power_of_ten};
 
 /// How far a feed along the path may differ from the one commanded, as a share of it. Covers the rounding of F words,
 /// inverse time ones included.
-const FEED_TOLERANCE: f64 = 0.01;
+pub(super) const FEED_TOLERANCE: f64 = 0.01;
 /// How far a spindle speed may differ, rev/min: rounding of S words.
 const SPEED_TOLERANCE: f64 = 0.51;
 
@@ -33,6 +34,9 @@ pub(super) fn check(case: &Case<'_>, placed: &Placed<'_>) -> Vec<Finding> {
         say(&codes::NOT_READY, Text::default().words("a cut before the tool's length is taken in (G43)"));
     }
     if let Some(text) = tool(case, placed) {
+        say(&codes::NOT_READY, text);
+    }
+    if let Some(text) = coolant(case, placed) {
         say(&codes::NOT_READY, text);
     }
     if let Some(text) = spindle(case, placed) {
@@ -91,6 +95,23 @@ fn spindle(case: &Case<'_>, placed: &Placed<'_>) -> Option<Text> {
         .then(|| Text::default().words(format!("a cut at {} in place of {}", turning(got), turning(wanted))))
 }
 
+/// The coolant is what was switched last.
+fn coolant(case: &Case<'_>, placed: &Placed<'_>) -> Option<Text> {
+    let wanted = case.context(placed.block).coolant;
+    let got = placed.cut.coolant;
+    let fits = match wanted {
+        Coolant::Off => !got.flood && !got.mist,
+        Coolant::Flood => got.flood,
+        Coolant::Mist => got.mist,
+    };
+    let name = |on: bool, what: &str| if on { format!(" {what}") } else { String::new() };
+    (!fits).then(|| {
+        let on = name(got.flood, "flood") + &name(got.mist, "mist");
+        let on = if on.is_empty() { " no".to_owned() } else { on };
+        Text::default().words(format!("a cut with{on} coolant in place of {wanted:?}").to_lowercase())
+    })
+}
+
 fn turning(rpm: f64) -> String {
     format!("{} rev/min {}", rpm.abs(), if rpm < 0.0 { "counter-clockwise" } else { "clockwise" })
 }
@@ -109,7 +130,10 @@ fn is_plain(case: &Case<'_>, placed: &Placed<'_>) -> bool {
 
 fn feed(case: &Case<'_>, placed: &Placed<'_>) -> Option<Text> {
     let got = placed.cut.feed.unwrap_or(0.0);
-    if placed.cut.length() == 0.0 {
+    // Holes have checks of their own.
+    let hole = placed.block.and_then(|b| case.target.blocks.get(b)).and_then(|b| b.record);
+    let hole = hole.and_then(|r| case.cl.records.get(r as usize)).is_some_and(|r| matches!(r.kind, RecordKind::Hole(_)));
+    if hole || placed.cut.length() == 0.0 {
         return None;
     }
     let text = Text::default();
@@ -163,7 +187,7 @@ fn lowered(case: &Case<'_>, placed: &Placed<'_>) -> Option<f64> {
 }
 
 /// One step of the F word, mm/min.
-fn feed_step(case: &Case<'_>) -> f64 {
+pub(super) fn feed_step(case: &Case<'_>) -> f64 {
     let grid = &case.target.capabilities.grid;
     grid.unit.in_mm() / power_of_ten(grid.feed_decimals) / grid.feed_scale.max(1e-9)
 }
