@@ -197,6 +197,14 @@ impl Machine<'_> {
             );
         }
         let [first, second] = letters.map(|l| self.length(block, l));
+        if let Some(absolute) = block.words.as_ref().map(|w| w.absolute).filter(|a| a & (bit(letters[0]) | bit(letters[1])) != 0) {
+            let place = |word: Option<f64>, letter: u8, from: f64| match word {
+                Some(value) if absolute & bit(letter) != 0 => value,
+                Some(value) => from + value,
+                None => from,
+            };
+            return Ok(Point2::new(place(first, letters[0], start.x), place(second, letters[1], start.y)));
+        }
         if self.state.arc_incremental {
             return Ok(start + Vec2::new(first.unwrap_or(0.0), second.unwrap_or(0.0)));
         }
@@ -275,6 +283,13 @@ impl Machine<'_> {
 
     /// P: number of turns, where the control has it.
     fn turns<S: Follow>(&self, block: &Block, used: &mut u32, out: &mut Out<'_, S>) -> f64 {
+        if let Some(more) = block.words.as_ref().and_then(|w| w.turns) {
+            if more.fract() != 0.0 || !(0.0..=999.0).contains(&more) {
+                out.fault(format!("TURN={more} is not a number of turns"));
+                return 1.0;
+            }
+            return 1.0 + more;
+        }
         if !self.rules.arc_turns {
             return 1.0;
         }

@@ -57,6 +57,8 @@ pub(in crate::readback) struct Block {
     pub percent: bool,
     /// The block is nothing but a program name of letters and digits.
     pub name: bool,
+    /// Words of a SINUMERIK block that no other control has.
+    pub words: Option<Box<super::sinumerik::Words>>,
     values: [f64; 26],
 }
 
@@ -76,9 +78,19 @@ impl Block {
     }
     /// Whether it holds no word at all.
     pub(in crate::readback) fn is_empty(&self) -> bool {
-        self.seen == 0 && self.g.len == 0 && self.m.len == 0
+        self.seen == 0 && self.g.len == 0 && self.m.len == 0 && self.words.is_none()
     }
-    fn clear(&mut self) {
+    /// The words of a SINUMERIK block, made when the first one comes.
+    pub(super) fn words(&mut self) -> &mut super::sinumerik::Words {
+        self.words.get_or_insert_default()
+    }
+    /// Adds a G code.
+    pub(super) fn push_g(&mut self, code: u16, fault: &mut dyn FnMut(String)) {
+        if !self.g.push(code) {
+            fault(format!("more than {MAX_CODES} G codes in one block"));
+        }
+    }
+    pub(super) fn clear(&mut self) {
         self.g.len = 0;
         self.m.len = 0;
         self.seen = 0;
@@ -87,6 +99,7 @@ impl Block {
         self.optional = false;
         self.percent = false;
         self.name = false;
+        self.words = None;
     }
     fn put(&mut self, letter: u8, number: Number) -> bool {
         let fresh = !self.has(letter);
@@ -261,7 +274,7 @@ fn bad_number(letter: u8, error: NumberError, line: &[u8], at: usize) -> String 
     }
 }
 
-fn store(letter: u8, value: Number, rules: &Rules, block: &mut Block, fault: &mut dyn FnMut(String)) {
+pub(super) fn store(letter: u8, value: Number, rules: &Rules, block: &mut Block, fault: &mut dyn FnMut(String)) {
     if matches!(letter, b'G' | b'M') {
         return store_code(letter, value, block, fault);
     }

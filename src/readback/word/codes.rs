@@ -112,6 +112,8 @@ pub(in crate::readback) enum G {
     ExactPath,
     /// G64.
     Blend,
+    /// COMPCAD and the like: the path is replaced by a smooth one within the contour tolerance.
+    Compressor,
     /// G187 P E: E is how far corners may be rounded (Haas).
     Smoothing,
     /// G97, G98, G99, G69, G50, G5.1 Q0 and the like: no effect on the path in the form they are understood in.
@@ -191,6 +193,7 @@ impl G {
             G::WorkOffset(_) => Group::Offset,
             G::Return { .. } => Group::Return,
             G::ExactPath | G::Blend | G::Smoothing => Group::Path,
+            G::Compressor => Group::Other,
             G::NoEffect(group) | G::Unfollowed(group) => group,
         }
     }

@@ -13,7 +13,7 @@ use crate::readback::out::Out;
 use crate::readback::{EventKind, FeedMode, Follow, TracePath};
 
 /// Most pecks of a hole, and most repeats of a block.
-const MOST_PECKS: f64 = 10_000.0;
+pub(super) const MOST_PECKS: f64 = 10_000.0;
 const MOST_REPEATS: f64 = 9999.0;
 
 /// Words of a cycle that stay in force with it.
@@ -42,14 +42,23 @@ impl Sticky {
 }
 
 /// A hole as the cycle's words describe it, mm and seconds.
-struct Hole {
-    kind: CycleKind,
-    r: f64,
-    z: f64,
-    back: f64,
-    peck: Option<f64>,
-    clearance: f64,
-    dwell: f64,
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Hole {
+    pub kind: CycleKind,
+    /// Where feed begins.
+    pub r: f64,
+    /// Bottom.
+    pub z: f64,
+    /// Where the tool goes after it.
+    pub back: f64,
+    /// Depth of a peck.
+    pub peck: Option<f64>,
+    /// What the first peck counts from.
+    pub from: f64,
+    /// How far a peck is backed out to break the chip, and where the rapid down stops before the last depth.
+    pub clearance: f64,
+    /// Seconds at the bottom.
+    pub dwell: f64,
 }
 
 impl Machine<'_> {
@@ -163,7 +172,7 @@ impl Machine<'_> {
         let dwell = self.state.cycle.p.filter(|_| cycles.with_dwell.contains(&kind)).unwrap_or(0.0);
         let back = self.height_after(level, cycles, out)?;
         let clearance = cycles.clearance;
-        Some(Hole { kind, r: level, z: bottom, back, peck, clearance, dwell })
+        Some(Hole { kind, r: level, z: bottom, back, peck, from: level, clearance, dwell })
     }
 
     /// The peck of G73 and G83, which must be there and lead down; `None` when it isn't.
@@ -218,39 +227,38 @@ impl Machine<'_> {
     }
 
     fn drill<S: Follow>(&mut self, hole: &Hole, at: &Target, out: &mut Out<'_, S>) {
+        let direction = self.state.direction;
+        if let CycleKind::Tap { left } = hole.kind
+            && (direction < 0.0) != left
+        {
+            out.fault(if left { "G74 with the spindle not at M4" } else { "G84 with the spindle not at M3" });
+        }
         if self.state.position[2] < hole.r {
             self.vertical(hole.r, true, out);
         }
         self.across(at, out);
+        self.drill_down(hole, None, out);
+    }
+
+    /// The hole under the tool; `feed_back` is the feed out of it, mm/min, where it is another.
+    pub(super) fn drill_down<S: Follow>(&mut self, hole: &Hole, feed_back: Option<f64>, out: &mut Out<'_, S>) {
         self.vertical(hole.r, true, out);
         let direction = self.state.direction;
         match hole.kind {
-            CycleKind::Drill | CycleKind::Dwell | CycleKind::Bore | CycleKind::BoreDwell => {
-                self.vertical(hole.z, false, out);
-            }
             CycleKind::Deep => self.pecks(hole, true, out),
             CycleKind::ChipBreak => self.pecks(hole, false, out),
-            CycleKind::Tap { left } => {
-                if (direction < 0.0) != left {
-                    out.fault(if left {
-                        "G74 with the spindle not at M4"
-                    } else {
-                        "G84 with the spindle not at M3"
-                    });
-                }
-                self.vertical(hole.z, false, out);
-                self.state.direction = -direction;
-            }
-            CycleKind::BoreStop | CycleKind::Fine => {
-                self.vertical(hole.z, false, out);
-                self.state.direction = 0.0;
-            }
+            _ => self.vertical(hole.z, false, out),
         }
         if hole.dwell > 0.0 {
             out.event(EventKind::Dwell(hole.dwell));
         }
-        let at_feed = matches!(hole.kind, CycleKind::Tap { .. } | CycleKind::Bore | CycleKind::BoreDwell);
-        if at_feed {
+        match hole.kind {
+            CycleKind::Tap { .. } => self.state.direction = -direction,
+            CycleKind::BoreStop | CycleKind::Fine => self.state.direction = 0.0,
+            _ => {}
+        }
+        if matches!(hole.kind, CycleKind::Tap { .. } | CycleKind::Bore | CycleKind::BoreDwell) {
+            self.state.feed = feed_back.or(self.state.feed);
             self.vertical(hole.r, false, out);
             self.state.direction = direction;
         }
@@ -261,7 +269,7 @@ impl Machine<'_> {
     /// Down in pecks: out of the hole after each, or back by a little.
     fn pecks<S: Follow>(&mut self, hole: &Hole, out_of_hole: bool, out: &mut Out<'_, S>) {
         let peck = hole.peck.unwrap_or(f64::INFINITY);
-        let mut depth = hole.r;
+        let mut depth = hole.from;
         loop {
             depth -= peck;
             // What is left over by rounding is no peck of its own.

@@ -23,6 +23,7 @@ pub(super) struct Machine<'a> {
     pub state: State,
     pub nurbs: super::nurbs::Open,
     pub frame: super::frame::Seen,
+    pub modal_cycle: Option<super::sinumerik::Modal>,
 }
 
 impl<'a> Machine<'a> {
@@ -33,6 +34,7 @@ impl<'a> Machine<'a> {
             state: State::new(rules),
             nurbs: super::nurbs::Open::default(),
             frame: super::frame::Seen::default(),
+            modal_cycle: None,
         }
     }
 
@@ -84,7 +86,9 @@ impl<'a> Machine<'a> {
         let mut used = ALWAYS_USED;
         self.modal(block, &plan, &mut used, out);
         if !plan.unfollowed {
-            self.motion(block, &plan, &mut used, out);
+            if !self.calls(block, out) {
+                self.motion(block, &plan, &mut used, out);
+            }
             self.unused(block, used, out);
         }
         self.finish_block(&plan, out);
@@ -96,7 +100,7 @@ impl<'a> Machine<'a> {
         let mut good = true;
         for code in block.g.iter() {
             let Some(g) = (self.rules.g)(code) else {
-                out.fault(format!("unknown code G{}", tenths(code)));
+                out.fault(format!("unknown code {}", g_name(code)));
                 good = false;
                 continue;
             };
@@ -125,9 +129,9 @@ impl<'a> Machine<'a> {
         let mask = 1u32 << (group as u32);
         if plan.groups & mask != 0 && group != Group::Other {
             out.fault(format!(
-                "two codes of one modal group ({}) in a block, the second is G{}",
+                "two codes of one modal group ({}) in a block, the second is {}",
                 group.name(),
-                tenths(code)
+                g_name(code)
             ));
             return false;
         }
@@ -146,11 +150,12 @@ impl<'a> Machine<'a> {
             G::LengthOff => plan.length = Some(false),
             G::ExactPath | G::Blend | G::Smoothing => plan.path = Some(g),
             G::WorkOffset(number) => plan.offset = Some(number),
+            G::Compressor => plan.compressor = true,
             G::RadiusOff => {}
             G::NoEffect(_) => plan.loose = true,
             G::Unfollowed(_) => {
                 plan.unfollowed = true;
-                out.fault(format!("G{} is not followed by this reader", tenths(code)));
+                out.fault(format!("{} is not followed by this reader", g_name(code)));
             }
         }
         true
@@ -209,6 +214,9 @@ impl<'a> Machine<'a> {
         self.tool_length(block, plan, used, out);
         self.offset(block, plan, used, out);
         self.path(block, plan.path, used, out);
+        if self.rules.length_by_d {
+            self.contour_path(block, plan.path, plan.compressor);
+        }
         self.state.incremental = plan.incremental.or(self.state.incremental);
         self.state.arc_incremental = plan.arc_incremental.unwrap_or(self.state.arc_incremental);
         self.state.arc_mode_stated |= plan.arc_incremental.is_some();
@@ -294,6 +302,12 @@ impl<'a> Machine<'a> {
 
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
     fn tool<S: Follow>(&mut self, block: &Block, plan: &Plan, out: &mut Out<'_, S>) {
+        if let Some(name) = block.words.as_ref().and_then(|w| w.tool.as_ref()) {
+            match self.setup.tool_names.iter().find(|(n, _)| n.eq_ignore_ascii_case(name)) {
+                Some((_, number)) => self.state.prepared = Some(*number),
+                None => out.fault(format!("alarm 6413, no tool '{name}' in the tool table")),
+            }
+        }
         if let Some(t) = block.get(b'T').filter(|t| (0.0..=self.rules.largest_t).contains(t)) {
             let tool = t as u32;
             self.state.prepared = Some(tool);
@@ -346,6 +360,9 @@ impl<'a> Machine<'a> {
     }
 
     fn tool_length<S: Follow>(&mut self, block: &Block, plan: &Plan, used: &mut u32, out: &mut Out<'_, S>) {
+        if self.rules.length_by_d {
+            return self.length_by_d(block, used, out);
+        }
         let Some(on) = plan.length else { return };
         self.state.known[2] = false;
         self.state.length = on;
@@ -366,9 +383,41 @@ impl<'a> Machine<'a> {
         }
     }
 
+    /// D: the edge whose length and radius count; D0 none.
+    fn length_by_d<S: Follow>(&mut self, block: &Block, used: &mut u32, out: &mut Out<'_, S>) {
+        let Some(d) = block.get(b'D') else { return };
+        *used |= bit(b'D');
+        if d.fract() != 0.0 || !(0.0..=12.0).contains(&d) {
+            out.fault(format!("D{d} is no cutting edge"));
+        }
+        let on = d > 0.0;
+        if self.state.length != on {
+            self.state.known[2] = false;
+        }
+        self.state.length = on;
+    }
+
+    /// The path on a SINUMERIK: exact under G60; else within the tolerance that CYCLE832, CTOL or ADIS gave, if one did.
+    fn contour_path(&mut self, block: &Block, path: Option<G>, compressor: bool) {
+        let unit = self.unit();
+        if let Some(tolerance) = block.words.as_ref().and_then(|w| w.tolerance) {
+            self.state.contour_tolerance = Some(tolerance * unit);
+        }
+        if path.is_none() && !compressor {
+            return;
+        }
+        self.state.path_stated = true;
+        let exact = path == Some(G::ExactPath) && !compressor;
+        self.state.path_tolerance =
+            if exact { 0.0 } else { self.state.contour_tolerance.unwrap_or(f64::INFINITY) };
+    }
+
     /// G64 P: blending cuts a corner by up to P, and the naive-cam detector drops points up to Q (P when it is
     /// not given) off the line; the two add up.
     fn path<S: Follow>(&mut self, block: &Block, path: Option<G>, used: &mut u32, out: &mut Out<'_, S>) {
+        if self.rules.length_by_d {
+            return;
+        }
         let Some(path) = path else { return };
         self.state.path_stated = true;
         if path == G::ExactPath {
@@ -450,4 +499,9 @@ fn gather_m<S: Follow>(code: u16, m: M, plan: &mut Plan, out: &mut Out<'_, S>) -
 /// A code in tenths as it is written: 52 is `5.2`, 10 is `1`.
 pub(super) fn tenths(code: u16) -> String {
     if code.is_multiple_of(10) { format!("{}", code / 10) } else { format!("{}.{}", code / 10, code % 10) }
+}
+
+/// A G code, or the name that stands for one.
+fn g_name(code: u16) -> String {
+    super::sinumerik::name(code).map_or_else(|| format!("G{}", tenths(code)), str::to_owned)
 }

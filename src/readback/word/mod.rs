@@ -15,6 +15,7 @@ mod machine;
 mod motion;
 mod nurbs;
 mod rules;
+mod sinumerik;
 mod state;
 
 pub(super) use controls::CONTROLS;
@@ -43,7 +44,11 @@ impl<'a> Reader<'a> {
     /// Executes a line without its end.
     pub(super) fn line<S: Follow>(&mut self, line: &[u8], out: &mut Out<'_, S>) {
         let rules = self.machine.rules;
-        block::read(line, rules, &mut self.block, &mut |message| out.fault(message));
+        let read = match rules.language {
+            rules::Language::Iso => block::read,
+            rules::Language::Sinumerik => sinumerik::read,
+        };
+        read(line, rules, &mut self.block, &mut |message| out.fault(message));
         if rules.line_limit.is_some_and(|limit| self.block.length > limit) {
             out.fault(format!(
                 "the line has {} characters, the control takes {}",

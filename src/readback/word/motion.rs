@@ -101,7 +101,12 @@ impl Machine<'_> {
                 *used |= axes;
                 out.fault("axis words without a motion code that uses them");
             }
-            Mode::Rapid | Mode::Linear => self.straight(block, axes, used, out),
+            Mode::Rapid | Mode::Linear => {
+                self.straight(block, axes, used, out);
+                if axes & (bit(b'X') | bit(b'Y')) != 0 {
+                    self.drill_after_move(out);
+                }
+            }
             Mode::Arc { clockwise } => self.arc(block, clockwise, used, out),
             Mode::Cycle(kind) => self.cycle(block, kind, plan, used, out),
             // Blocks of an open curve never come here.
@@ -140,7 +145,10 @@ impl Machine<'_> {
             self.assume(
                 3,
                 out,
-                "neither G61 nor G64 P before the first cut: how far corners are cut is left to the control",
+                &format!(
+                    "neither {} nor a path tolerance before the first cut: how far corners are cut is left to the control",
+                    self.rules.exact_code
+                ),
             );
         }
         if self.rules.work_offset && self.state.work_offset == 0 {
@@ -163,7 +171,11 @@ impl Machine<'_> {
         let mut target = Target { to: self.state.position, moved: [false; 4] };
         let rotary = self.setup.rotary_letter().and_then(|l| self.degrees(block, l));
         let words = [self.length(block, b'X'), self.length(block, b'Y'), self.length(block, b'Z'), rotary];
+        let modes = block.words.as_ref().map_or((0, 0), |w| (w.absolute, w.incremental));
+        let letters = [b'X', b'Y', b'Z', self.setup.rotary_letter().unwrap_or(b'C')];
         for (axis, word) in words.into_iter().enumerate() {
+            let letter = bit(letters[axis]);
+            let incremental = (incremental || modes.1 & letter != 0) && modes.0 & letter == 0;
             let (Some(value), Some(slot)) = (word, target.to.get_mut(axis)) else { continue };
             if incremental && value != 0.0 && !self.state.known[axis] {
                 out.fault("an incremental move from a position that is not known");
@@ -243,12 +255,19 @@ impl Machine<'_> {
 
     /// Whether a cutting block has its feed; says what is missing.
     pub(super) fn feed_is_there<S: Follow>(&mut self, block: &Block, out: &mut Out<'_, S>) -> bool {
-        self.cut_assumptions(out);
         let mode = self.state.feed_mode.unwrap_or(FeedMode::PerMinute);
         if mode == FeedMode::InverseTime && !block.has(b'F') {
+            self.cut_assumptions(out);
             out.fault(format!("{}: F word missing with inverse time motion", self.rules.no_feed));
             return false;
         }
+        self.cut_is_ready(out)
+    }
+
+    /// Whether a cut has a feed, F words of its own block apart.
+    pub(super) fn cut_is_ready<S: Follow>(&mut self, out: &mut Out<'_, S>) -> bool {
+        self.cut_assumptions(out);
+        let mode = self.state.feed_mode.unwrap_or(FeedMode::PerMinute);
         if self.state.feed.is_none_or(|f| f <= 0.0) {
             out.fault(self.rules.no_feed);
             return false;
@@ -275,7 +294,7 @@ impl Machine<'_> {
     ) {
         let z = (from[2], target.to[2]);
         let feed = if rapid { None } else { self.path_feed(&path, &from, target) };
-        let in_cycle = matches!(self.state.motion, Mode::Cycle(_));
+        let in_cycle = matches!(self.state.motion, Mode::Cycle(_)) || self.state.in_call;
         let known = self.known_before(target);
         let cut = TraceMove {
             path,
@@ -320,6 +339,7 @@ impl Machine<'_> {
             RotaryFeed::LinearAxes if linear > 0.0 => linear,
             RotaryFeed::LinearAxes => turn.abs(),
             RotaryFeed::UnitsAsDegrees => hypot(linear, turn),
+            RotaryFeed::MillimetresAsDegrees => hypot(linear, turn / self.unit()),
         };
         Some(per_minute * along(path, dz) / reference)
     }

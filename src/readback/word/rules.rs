@@ -71,6 +71,8 @@ pub(in crate::readback) enum RotaryFeed {
     LinearAxes,
     /// One degree counts as one unit of length.
     UnitsAsDegrees,
+    /// One degree counts as one millimetre, in inch programs too.
+    MillimetresAsDegrees,
 }
 
 /// What the control makes of an arc whose end is not on its circle.
@@ -102,11 +104,22 @@ pub(in crate::readback) struct Cycles {
     pub higher_return: bool,
 }
 
+/// Ways to cut a line into words.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::readback) enum Language {
+    /// Letters with numbers.
+    Iso,
+    /// SINUMERIK: also names, `=` and calls.
+    Sinumerik,
+}
+
 /// How a control words its faults and what it refuses.
 #[derive(Debug)]
 pub(in crate::readback) struct Rules {
     /// Name, as in `--post` data's `control`.
     pub name: &'static str,
+    /// How lines are cut.
+    pub language: Language,
     /// Program frame.
     pub frame: Frame,
     /// `(` starts a comment.
@@ -161,6 +174,8 @@ pub(in crate::readback) struct Rules {
     pub tool_change: bool,
     /// Tool length is taken in by G43, so that a cut without it is wrong.
     pub length_offset: bool,
+    /// Lengths are taken in by D words, D0 leaves them out.
+    pub length_by_d: bool,
     /// G43 needs an H word.
     pub length_needs_h: bool,
     /// Work offsets are selected by the program, so that moving without one leaves it to what was in force.
@@ -179,6 +194,8 @@ pub(in crate::readback) struct Rules {
     pub rotary_feed: RotaryFeed,
     /// A path tolerance must be asked for (G61, G64 P): without, the deviation has no bound.
     pub blends: bool,
+    /// The code of the exact path, for messages.
+    pub exact_code: &'static str,
     /// R and I J K in one arc: `true`, R wins; `false`, it is a fault.
     pub radius_wins: bool,
     /// An arc by R of nearly half a turn can't be computed reliably.

@@ -19,6 +19,7 @@ pub(in crate::readback) struct Plan {
     pub feed: Option<FeedMode>,
     pub length: Option<bool>,
     pub path: Option<G>,
+    pub compressor: bool,
     pub offset: Option<u16>,
     pub return_to_r: Option<bool>,
     pub coolant: Option<M>,
@@ -51,6 +52,10 @@ pub(in crate::readback) struct State {
     /// mm; infinite when the control may cut corners as it likes.
     pub path_tolerance: f64,
     pub path_stated: bool,
+    /// mm, by CYCLE832 or CTOL.
+    pub contour_tolerance: Option<f64>,
+    /// A cycle that was called is at work.
+    pub in_call: bool,
     pub speed: f64,
     pub direction: f64,
     pub tool: u32,
@@ -80,6 +85,8 @@ impl State {
             length: false,
             path_tolerance: if rules.blends { f64::INFINITY } else { 0.0 },
             path_stated: !rules.blends,
+            contour_tolerance: None,
+            in_call: false,
             speed: 0.0,
             direction: 0.0,
             tool: 0,

@@ -1,11 +1,12 @@
 //! Fanuc 30i milling, G-code system of machining centres.
 
 use super::super::codes::{CycleKind, G, Group, M, Mode, Plane};
-use super::super::rules::{ArcEnd, Cycles, Dwell, FeedReset, Frame, RotaryFeed, Rules, Unpointed};
+use super::super::rules::{ArcEnd, Cycles, Dwell, FeedReset, Frame, Language, RotaryFeed, Rules, Unpointed};
 use crate::readback::FeedMode;
 
-pub(super) const RULES: Rules = Rules {
+pub(in crate::readback::word) const RULES: Rules = Rules {
     name: "fanuc",
+    language: Language::Iso,
     frame: Frame::PercentAndNumber,
     parentheses: true,
     semicolon_comment: false,
@@ -33,6 +34,7 @@ pub(super) const RULES: Rules = Rules {
     cycles: Some(&CYCLES),
     tool_change: true,
     length_offset: true,
+    length_by_d: false,
     length_needs_h: true,
     work_offset: true,
     reference_needs_axis: true,
@@ -42,6 +44,7 @@ pub(super) const RULES: Rules = Rules {
     feed_reset: FeedReset::Change,
     rotary_feed: RotaryFeed::UnitsAsDegrees,
     blends: false,
+    exact_code: "G61",
     radius_wins: true,
     shaky_half_circle: true,
     arc_turns: false,
@@ -57,7 +60,7 @@ pub(super) const RULES: Rules = Rules {
 };
 
 /// Pecks and dwells in milliseconds; the distance back is parameter 5114 or 5115.
-pub(super) const CYCLES: Cycles = Cycles {
+pub(in crate::readback::word) const CYCLES: Cycles = Cycles {
     dwell: Dwell::Milliseconds,
     with_dwell: &[
         CycleKind::Dwell,
@@ -74,7 +77,7 @@ pub(super) const CYCLES: Cycles = Cycles {
 };
 
 /// The drilling cycles that most controls share.
-pub(super) fn cycle(tenths: u16) -> Option<G> {
+pub(in crate::readback::word) fn cycle(tenths: u16) -> Option<G> {
     Some(G::Motion(Mode::Cycle(match tenths {
         730 => CycleKind::ChipBreak,
         740 => CycleKind::Tap { left: true },
@@ -91,11 +94,11 @@ pub(super) fn cycle(tenths: u16) -> Option<G> {
 }
 
 /// G54 to G59, by number from 1.
-pub(super) fn offset(tenths: u16) -> Option<G> {
+pub(in crate::readback::word) fn offset(tenths: u16) -> Option<G> {
     (matches!(tenths, 540..=590) && tenths.is_multiple_of(10)).then(|| G::WorkOffset((tenths - 530) / 10))
 }
 
-pub(super) fn g(tenths: u16) -> Option<G> {
+pub(in crate::readback::word) fn g(tenths: u16) -> Option<G> {
     Some(match tenths {
         0 => G::Motion(Mode::Rapid),
         10 => G::Motion(Mode::Linear),
@@ -144,7 +147,7 @@ fn unfollowed(tenths: u16) -> Option<G> {
     }))
 }
 
-pub(super) fn m(tenths: u16) -> Option<M> {
+pub(in crate::readback::word) fn m(tenths: u16) -> Option<M> {
     Some(match tenths {
         0 => M::Stop { optional: false },
         10 => M::Stop { optional: true },

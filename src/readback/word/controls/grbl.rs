@@ -1,11 +1,12 @@
 //! Grbl 1.1, from its list of supported codes and its error codes.
 
 use super::super::codes::{G, Group, M, Mode, Plane};
-use super::super::rules::{ArcEnd, Dwell, FeedReset, Frame, RotaryFeed, Rules, Unpointed};
+use super::super::rules::{ArcEnd, Dwell, FeedReset, Frame, Language, RotaryFeed, Rules, Unpointed};
 use crate::readback::FeedMode;
 
 pub(super) const RULES: Rules = Rules {
     name: "grbl",
+    language: Language::Iso,
     frame: Frame::Free,
     parentheses: true,
     semicolon_comment: true,
@@ -33,6 +34,7 @@ pub(super) const RULES: Rules = Rules {
     cycles: None,
     tool_change: false,
     length_offset: false,
+    length_by_d: false,
     length_needs_h: false,
     work_offset: true,
     reference_needs_axis: false,
@@ -42,6 +44,7 @@ pub(super) const RULES: Rules = Rules {
     feed_reset: FeedReset::Change,
     rotary_feed: RotaryFeed::LinearAxes,
     blends: false,
+    exact_code: "G61",
     radius_wins: false,
     shaky_half_circle: false,
     arc_turns: false,

@@ -1,11 +1,12 @@
 //! LinuxCNC, from its G-code reference and the behaviour of its interpreter.
 
 use super::super::codes::{CycleKind, G, Group, M, Mode, Plane};
-use super::super::rules::{ArcEnd, Cycles, Dwell, FeedReset, Frame, RotaryFeed, Rules, Unpointed};
+use super::super::rules::{ArcEnd, Cycles, Dwell, FeedReset, Frame, Language, RotaryFeed, Rules, Unpointed};
 use crate::readback::FeedMode;
 
 pub(super) const RULES: Rules = Rules {
     name: "linuxcnc",
+    language: Language::Iso,
     frame: Frame::PercentPairOrEnd,
     parentheses: true,
     semicolon_comment: true,
@@ -42,6 +43,7 @@ pub(super) const RULES: Rules = Rules {
     cycles: Some(&CYCLES),
     tool_change: true,
     length_offset: true,
+    length_by_d: false,
     length_needs_h: false,
     work_offset: true,
     reference_needs_axis: false,
@@ -51,6 +53,7 @@ pub(super) const RULES: Rules = Rules {
     feed_reset: FeedReset::EveryWord,
     rotary_feed: RotaryFeed::LinearAxes,
     blends: true,
+    exact_code: "G61",
     radius_wins: false,
     shaky_half_circle: false,
     arc_turns: true,

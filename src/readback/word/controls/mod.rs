@@ -3,7 +3,7 @@
 use super::rules::Rules;
 
 mod centroid;
-mod fanuc;
+pub(super) mod fanuc;
 mod grbl;
 mod grblhal;
 mod haas;
@@ -15,7 +15,7 @@ mod mitsubishi;
 mod okuma;
 
 /// Every control of the word-address family.
-pub(in crate::readback) const CONTROLS: [&Rules; 14] = [
+pub(in crate::readback) const CONTROLS: [&Rules; 15] = [
     &linuxcnc::RULES,
     &fanuc::RULES,
     &haas::RULES,
@@ -30,4 +30,5 @@ pub(in crate::readback) const CONTROLS: [&Rules; 14] = [
     &marlin::RULES,
     &marlin::SMOOTHIEWARE,
     &marlin::SMOOTHIEWARE_GRBL,
+    &super::sinumerik::RULES,
 ];
