@@ -11,6 +11,7 @@
 //! [`Follow`]er as they come, so that the length of a program is no bound on memory.
 
 mod curve;
+mod klartext;
 mod number;
 mod out;
 mod trace;
@@ -79,7 +80,7 @@ impl core::error::Error for UnknownControl {}
 
 /// Names of the controls that can be read.
 pub fn controls() -> impl Iterator<Item = &'static str> {
-    word::CONTROLS.into_iter().map(|rules| rules.name)
+    word::CONTROLS.into_iter().map(|rules| rules.name).chain([klartext::NAME])
 }
 
 /// What a cut on this control needs, as facts of the control.
@@ -94,6 +95,9 @@ pub struct Needs {
 /// What a cut on `control` needs; `None` for an unknown control.
 #[must_use]
 pub fn needs(control: &str) -> Option<Needs> {
+    if control == klartext::NAME {
+        return Some(Needs { tool_change: true, length_offset: false });
+    }
     word::find(control).map(|r| Needs { tool_change: r.tool_change, length_offset: r.length_offset })
 }
 
@@ -137,6 +141,7 @@ pub struct Interpreter<'a> {
 #[derive(Debug)]
 enum Reader<'a> {
     Word(Box<word::Reader<'a>>),
+    Klartext(Box<klartext::Reader<'a>>),
 }
 
 impl<'a> Interpreter<'a> {
@@ -147,6 +152,7 @@ impl<'a> Interpreter<'a> {
     pub fn new(control: &str, setup: &'a MachineSetup) -> Result<Self, UnknownControl> {
         let reader = match word::find(control) {
             Some(rules) => Reader::Word(Box::new(word::Reader::new(rules, setup))),
+            None if control == klartext::NAME => Reader::Klartext(Box::new(klartext::Reader::new(setup))),
             None => return Err(UnknownControl(control.to_owned())),
         };
         Ok(Interpreter { reader, line: 0 })
@@ -160,6 +166,7 @@ impl<'a> Interpreter<'a> {
         let mut out = out::Out { sink, line: self.line };
         match &mut self.reader {
             Reader::Word(reader) => reader.line(line, &mut out),
+            Reader::Klartext(reader) => reader.line(line, &mut out),
         }
     }
 
@@ -168,6 +175,7 @@ impl<'a> Interpreter<'a> {
         let mut out = out::Out { sink, line: self.line };
         match &mut self.reader {
             Reader::Word(reader) => reader.finish(&mut out),
+            Reader::Klartext(reader) => reader.finish(&mut out),
         }
     }
 }

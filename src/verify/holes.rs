@@ -180,12 +180,13 @@ impl<'a> Follower<'a> {
             return;
         }
         let (at_feed, spindle) = match self.cycle.kind {
-            CycleKind::Tap { left, .. } => (true, Some(if left { 1.0 } else { -1.0 })),
-            CycleKind::Bore | CycleKind::BoreDwell => (true, None),
-            CycleKind::BoreStop | CycleKind::BoreOrient { .. } => (false, Some(0.0)),
-            _ => (false, None),
+            CycleKind::Tap { left, .. } => (Some(true), Some(if left { 1.0 } else { -1.0 })),
+            CycleKind::Bore | CycleKind::BoreDwell => (Some(true), None),
+            // With the spindle stopped a feed out is as good as a rapid.
+            CycleKind::BoreStop | CycleKind::BoreOrient { .. } => (None, Some(0.0)),
+            _ => (Some(false), None),
         };
-        if at_feed == cut.rapid {
+        if at_feed == Some(cut.rapid) {
             let way = if cut.rapid { "at rapid" } else { "at feed" };
             self.say(happening, Text::default().words(format!("the tool leaves the hole {way}")));
         }

@@ -426,3 +426,4 @@ proptest::proptest! {
 mod arcs;
 mod controls;
 mod cycles;
+mod sinumerik;

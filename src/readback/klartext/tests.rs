@@ -1,0 +1,200 @@
+//! Programs written by hand.
+
+use crate::geom::Point2;
+use crate::math::{PI, TAU};
+use crate::readback::*;
+
+fn setup() -> MachineSetup {
+    MachineSetup { rotary: Some(Rotary { letter: 'C', reversed: false }), ..MachineSetup::default() }
+}
+
+/// Numbers the blocks of a body between start and end.
+fn program(unit: &str, body: &str) -> String {
+    let start = "TOOL CALL 1 Z S1000\nL Z+5 R0 FMAX M3\nL X+10 Y+0 R0 FMAX";
+    let text = format!("BEGIN PGM P1 {unit}\n{start}\n{body}\nL Z+50 R0 FMAX M30\nEND PGM P1 {unit}");
+    let mut number = 0;
+    let mut goes_on = false;
+    text.lines().fold(String::new(), |mut all, line| {
+        if !goes_on {
+            all += &format!("{number} ");
+            number += 1;
+        }
+        goes_on = line.ends_with('~');
+        all + line + "\n"
+    })
+}
+
+fn trace(text: &str) -> Trace {
+    run(text.as_bytes(), "heidenhain", &setup()).expect("a known control")
+}
+
+fn clean(body: &str) -> Vec<TraceMove> {
+    let trace = trace(&program("MM", body));
+    assert_eq!((&trace.faults[..], &trace.assumed[..]), (&[][..], &[][..]), "{body}");
+    let only_moves = |e: TraceEvent| if let EventKind::Move(m) = e.kind { Some(m) } else { None };
+    trace.events.into_iter().filter_map(only_moves).skip(2).collect()
+}
+
+fn legs(body: &str) -> Vec<String> {
+    let trace = trace(&program("MM", body));
+    assert_eq!(trace.faults, [], "{body}");
+    let leg = |e: TraceEvent| match e.kind {
+        EventKind::Move(m) => {
+            let p = m.end();
+            Some(format!("{} {} {} {}", if m.rapid { 'R' } else { 'F' }, p.x, p.y, (p.z * 1e6).round() / 1e6))
+        }
+        EventKind::Dwell(s) => Some(format!("D {s}")),
+        _ => None,
+    };
+    let legs: Vec<String> = trace.events.into_iter().filter_map(leg).skip(2).collect();
+    legs[..legs.len() - 1].to_vec()
+}
+
+fn arc(m: &TraceMove) -> (Point2, f64) {
+    match m.path {
+        TracePath::Arc { centre, sweep, .. } => (centre, sweep),
+        ref other => panic!("not an arc: {other:?}"),
+    }
+}
+
+fn close(a: f64, b: f64) -> bool {
+    (a - b).abs() < 1e-9
+}
+
+#[test]
+fn lines_with_their_feeds() {
+    let moves = clean("L Z-1 F120\nL X+12.5 Y-3 F300 M8\nL IX+1 IY-1");
+    assert_eq!((moves[0].feed, moves[1].feed, moves[2].feed), (Some(120.0), Some(300.0), Some(300.0)));
+    assert_eq!(moves[2].end().xy(), Point2::new(13.5, -4.0));
+    assert!(moves[1].coolant.flood && close(moves[1].spindle, 1000.0) && moves[1].tool == 1);
+    // FMAX holds for its block; the feed before it comes back.
+    let moves = clean("L Z-1 F120\nL Z+5 FMAX\nL Z-1");
+    assert!(moves[1].rapid && !moves[2].rapid && moves[2].feed == Some(120.0));
+}
+
+#[test]
+fn inch_feeds_are_in_tenths_of_an_inch() {
+    let trace = trace(&program("INCH", "L X+1 F100"));
+    assert_eq!(trace.faults, []);
+    let EventKind::Move(m) = &trace.events[3].kind else { panic!() };
+    assert!(close(m.end().x, 25.4) && close(m.feed.unwrap(), 254.0));
+}
+
+#[test]
+fn circles_about_a_pole_by_radius_and_by_angle() {
+    let moves = clean("L Z-1 F120\nCC X+0 Y+0\nC X+0 Y+10 DR+\nC X+10 Y+0 DR-\nC X+10 Y+0 DR+");
+    assert!(close(arc(&moves[1]).1, PI / 2.0) && close(arc(&moves[2]).1, -PI / 2.0));
+    assert!(close(arc(&moves[3]).1, TAU));
+    let moves = clean("L Z-1 F120\nCR X+0 Y+10 R+10 DR+\nCR X+10 Y+0 R-10 DR+");
+    assert!(arc(&moves[1]).0.coords.norm() < 1e-9 && close(arc(&moves[2]).1, 1.5 * PI));
+    let moves = clean("L Z-1 F120\nCC X+0 Y+0\nCP IPA+810 IZ-4 DR+\nCP PA+0 DR-");
+    assert!(close(arc(&moves[1]).1, 2.25 * TAU) && moves[1].z == (-1.0, -5.0));
+    assert!((moves[1].end().xy() - Point2::new(0.0, 10.0)).norm() < 1e-9);
+    assert!(close(arc(&moves[2]).1, -PI / 2.0));
+}
+
+#[test]
+fn the_control_refuses_what_it_refuses() {
+    for (body, words) in [
+        ("L X+1", "feed rate is missing"),
+        ("L X+1 F100 R0 Q3=1", "Q3 in a motion block"),
+        ("L X+1 X+2 F100", "X2 twice"),
+        ("L X+1 RL F100", "radius compensation"),
+        ("L X+100000 F100", "is not in"),
+        ("C X+1 Y+1 DR+ F100", "without a pole"),
+        ("CC X+0 Y+0\nC X+0 Y+10.017 DR+ F100", "circle end point incorrect"),
+        ("CC X+0 Y+0\nC X+0 Y+10 F100", "without DR"),
+        ("CC X+0 Y+0\nC X+0 Y+10 DR+ FMAX", "a circle at FMAX"),
+        ("CC X+0 Y+0\nC X+0 Y+10 Z-1 DR+ F100", "a helix is CP"),
+        ("CC X+0 Y+0\nCP IPA-90 DR+ F100", "have DR's sign"),
+        ("CC X+0 Y+0\nCP IPA+5401 DR+ F100", "not be over 5400"),
+        ("CR X+0 Y+0 R+2 DR+ F100", "radius too small"),
+        ("TOOL CALL 1 Y S100", "the spindle axis Y"),
+        ("CYCL CALL", "without a cycle"),
+        ("CYCL DEF 9.0 DWELL\nCYCL DEF 9.1 DWELL 4000", "is not in 0 to 3600"),
+        ("CYCL DEF 9.1 DWELL 1", "without 9.0"),
+        ("CYCL DEF 208 BORE MILLING ~\nQ200=1", "CYCL DEF 208 is not followed"),
+        ("FN 0: Q1 = +3", "FN is not followed"),
+        ("M128", "M128 is not followed"),
+        ("L X+1 WHAT F10", "unknown word WHAT"),
+    ] {
+        let got = trace(&program("MM", body)).faults;
+        assert!(got.iter().any(|f| f.message.contains(words)), "{body}: {got:#?}");
+    }
+}
+
+#[test]
+fn the_frame_is_numbered_and_named() {
+    let says = |text: &str, words: &str| {
+        let got = trace(text).faults;
+        assert!(got.iter().any(|f| f.message.contains(words)), "{text}: {got:#?}");
+    };
+    let good = program("MM", "L X+1 F100");
+    assert_eq!(trace(&good).faults, []);
+    says(&good.replacen("2 L", "3 L", 1), "block number 3 where 2 is next");
+    says(&good.replacen("2 L", "L", 1), "a block without a number");
+    says(&good.replacen("END PGM P1 MM", "END PGM P1 INCH", 1), "does not name the program");
+    says(&good.replacen("END PGM P1 MM", "END PGM P2 MM", 1), "does not name the program");
+    says(&good.replacen("BEGIN PGM P1 MM", "BEGIN PGM P1", 1), "does not start with BEGIN PGM");
+    says("0 BEGIN PGM A MM\n1 L X+0 FMAX\n", "no END PGM");
+    says(&(good.clone() + "9 L X+1\n"), "after END PGM");
+    says(&good.replace(" M30", ""), "spindle");
+}
+
+#[test]
+fn tools_dwells_stops_and_tolerances() {
+    let text = program("MM", "CYCL DEF 32.0 TOLERANCE\nCYCL DEF 32.1 T0.02\nL X+1 F100\nSTOP\nCYCL DEF 9.0 DWELL TIME\nCYCL DEF 9.1 DWELL 1.5\nTOOL CALL 2 Z S500 F80\nL Z+5 FMAX M4\nL X+3 Y+0 FMAX\nCYCL DEF 32.0 TOLERANCE\nCYCL DEF 32.1\nL X+4");
+    let trace = trace(&text);
+    assert_eq!(trace.faults, []);
+    let kinds: Vec<String> = trace
+        .events
+        .iter()
+        .map(|e| match &e.kind {
+            EventKind::Move(m) => format!("{} {} {} {:?}", m.tool, m.spindle, m.path_tolerance, m.feed),
+            other => format!("{other:?}"),
+        })
+        .collect();
+    let wanted = ["1 1000 0.02 Some(100.0)", "Stop { optional: false }", "Dwell(1.5)", "ToolChange(2)", "2 -500 0.02 None", "2 -500 0.02 None", "2 -500 0 Some(80.0)"];
+    assert_eq!(kinds[3..10], wanted);
+}
+
+const DRILL: &str = "CYCL DEF 200 DRILLING ~\nQ200=+2 ;SET-UP CLEARANCE ~\nQ201=-8 ;DEPTH ~\nQ206=+150 ;FEED ~\nQ202=+5 ;PECK ~\nQ210=+0 ~\nQ203=+0 ~\nQ204=+10 ~\nQ211=+0.5";
+
+#[test]
+fn drilling_pecks_from_the_surface_and_leaves_to_the_second_clearance() {
+    let body = format!("{DRILL}\nL X+1 Y+2 R0 FMAX M99\nL X+4 R0 FMAX\nCYCL CALL");
+    let hole = ["R 1 2 2", "F 1 2 -5", "R 1 2 2", "R 1 2 -3", "F 1 2 -8", "D 0.5", "R 1 2 10"];
+    let got = legs(&body);
+    assert_eq!(got[1..8], hole);
+    assert_eq!(got[8], "R 4 2 10");
+    assert_eq!(got[9..].len(), 7);
+}
+
+#[test]
+fn chips_break_taps_turn_back_and_bores_come_out_at_feed() {
+    let chip = DRILL.replace("200 DRILLING", "203 UNIVERSAL").replace("Q210=+0", "Q213=+9 ~\nQ256=+0.5");
+    assert_eq!(
+        legs(&format!("{chip}\nL X+1 Y+2 FMAX M99"))[1..],
+        ["R 1 2 2", "F 1 2 -5", "R 1 2 -4.5", "F 1 2 -8", "D 0.5", "R 1 2 10"]
+    );
+    let tap = "CYCL DEF 207 TAPPING ~\nQ200=+2 ~\nQ201=-8 ~\nQ239=+1.5 ~\nQ203=+0 ~\nQ204=+10\nL X+1 Y+2 FMAX M99";
+    let moves = clean(tap);
+    let cuts: Vec<(f64, Option<f64>)> = moves.iter().filter(|m| !m.rapid).map(|m| (m.spindle, m.feed)).collect();
+    assert_eq!(cuts, [(1000.0, Some(1500.0)), (-1000.0, Some(1500.0))]);
+    let bore = "CYCL DEF 201 REAMING ~\nQ200=+2 ~\nQ201=-8 ~\nQ206=+100 ~\nQ211=+0 ~\nQ208=+50 ~\nQ203=+0 ~\nQ204=+10\nL X+1 Y+2 FMAX M99";
+    assert_eq!(legs(bore)[1..], ["R 1 2 2", "F 1 2 -8", "F 1 2 2", "R 1 2 10"]);
+}
+
+#[test]
+fn bad_cycles_are_refused() {
+    for (from, to, words) in [
+        ("Q201=-8", "Q201=+8", "must be negative"),
+        ("Q206=+150 ;FEED ~\n", "", "without Q206"),
+        ("Q206=+150", "Q206=+0", "without a feed"),
+        ("Q202=+5", "Q202=+0.0001", "a peck of"),
+    ] {
+        let body = format!("{}\nL X+1 Y+2 FMAX M99", DRILL.replace(from, to));
+        let got = trace(&program("MM", &body)).faults;
+        assert!(got.iter().any(|f| f.message.contains(words)), "{to}: {got:#?}");
+    }
+}

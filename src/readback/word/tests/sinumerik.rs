@@ -1,0 +1,143 @@
+//! SINUMERIK: its words, arcs, dwells, tools and cycles.
+
+use super::*;
+
+fn program(body: &str) -> String {
+    format!("%_N_PART_MPF\nG17 G710 G90 G94 G40 G60 G54\nT1 M6\nD1\nG0 X10 Y0 Z5\nS1000 M3\nF100\n{body}\nM30\n")
+}
+
+fn run_it(text: &str) -> Trace {
+    let setup = MachineSetup { tool_names: vec![("MILL 10".to_owned(), 7)], ..setup() };
+    run(text.as_bytes(), "sinumerik", &setup).expect("a known control")
+}
+
+fn fine(body: &str) -> Vec<TraceMove> {
+    let trace = run_it(&program(body));
+    assert_eq!((&trace.faults[..], &trace.assumed[..]), (&[][..], &[][..]), "{body}");
+    moves(trace).into_iter().skip(1).collect()
+}
+
+fn legs(body: &str) -> Vec<String> {
+    let trace = run_it(&program(body));
+    assert_eq!(trace.faults, [], "{body}");
+    let leg = |e: TraceEvent| match e.kind {
+        EventKind::Move(m) => {
+            let p = m.end();
+            Some(format!("{} {} {} {}", if m.rapid { 'R' } else { 'F' }, p.x, p.y, (p.z * 1e6).round() / 1e6))
+        }
+        EventKind::Dwell(s) => Some(format!("D {s}")),
+        _ => None,
+    };
+    trace.events.into_iter().filter_map(leg).skip(1).collect()
+}
+
+#[test]
+fn words_with_and_without_equals() {
+    let moves = fine("n10 G1 x=12.5 Y=-3 Z-1 ; a comment\nX=IC(1) Y=AC(4)\nG91 X1 Y=AC(5)\nG90 X1.25EX1");
+    assert_eq!(line(&moves[0]).1, Point2::new(12.5, -3.0));
+    assert_eq!(line(&moves[1]).1, Point2::new(13.5, 4.0));
+    assert_eq!(line(&moves[2]).1, Point2::new(14.5, 5.0));
+    assert!(close(line(&moves[3]).1.x, 12.5));
+    assert!(moves.iter().all(|m| m.length_offset && m.tool == 1 && m.path_tolerance == 0.0 && m.work_offset == 1));
+}
+
+#[test]
+fn arcs_by_offsets_radius_absolute_centre_and_turns() {
+    let moves = fine("G3 X0 Y10 I-10 J0\nG2 X10 Y0 CR=10\nG3 X0 Y10 CR=-10\nG2 X10 Y0 I=AC(0) J=AC(0)\nG3 X10 Y0 I-10 J0 Z-4 TURN=2\nG2 I-10");
+    assert!(close(arc(&moves[0]).1, PI / 2.0) && close(arc(&moves[1]).1, -PI / 2.0));
+    assert!(close(arc(&moves[2]).1, 1.5 * PI));
+    assert!(close(arc(&moves[3]).1, -PI / 2.0) && arc(&moves[3]).0.coords.norm() < 1e-12);
+    assert!(close(arc(&moves[4]).1, 3.0 * TAU) && moves[4].z == (5.0, -4.0));
+    assert!(close(arc(&moves[5]).1, -TAU));
+}
+
+#[test]
+fn dwells_in_seconds_and_revolutions() {
+    assert_eq!(legs("G4 F1.5\nG4 S100"), ["D 1.5", "D 6"]);
+    // F of a dwell is no feed, S no speed.
+    let moves = fine("G4 F1.5\nG4 S100\nG1 X1");
+    assert!(moves[0].feed == Some(100.0) && close(moves[0].spindle, 1000.0));
+}
+
+#[test]
+fn the_feed_is_gone_when_its_type_changes() {
+    let got = run_it(&program("G95\nG1 X1")).faults;
+    assert!(got.iter().any(|f| f.message.contains("10860")), "{got:?}");
+    assert_eq!(fine("G95 F0.1\nG1 X1")[0].feed, Some(100.0));
+    let moves = moves(run_it(&program("F10\nG1 X1").replace("G710", "G700")));
+    assert!(close(moves.last().expect("a move").feed.expect("a feed"), 254.0));
+}
+
+#[test]
+fn tools_by_name_and_lengths_by_d() {
+    let trace = run_it(&program("T=\"mill 10\"\nM6\nD1\nS500 M3\nG0 X1 Y1 Z5\nG1 X2\nG0 SUPA Z0 D0\nG0 X3"));
+    assert_eq!(trace.faults, []);
+    assert!(trace.events.iter().any(|e| matches!(e.kind, EventKind::ToolChange(7))));
+    let moves = moves(trace);
+    let (cut, after) = (&moves[2], &moves[3]);
+    assert!(cut.tool == 7 && cut.length_offset && !after.length_offset && !after.known[2]);
+    let got = run_it(&program("T=\"OTHER\" M6")).faults;
+    assert!(got.iter().any(|f| f.message.contains("no tool 'OTHER'")), "{got:?}");
+}
+
+#[test]
+fn path_tolerance_is_what_was_asked_for() {
+    let of = |words: &str| fine(&format!("{words}\nG1 X1"))[0].path_tolerance;
+    assert_eq!((of("G60"), of("G64"), of("G642")), (0.0, f64::INFINITY, f64::INFINITY));
+    assert!(close(of("CYCLE832(0.02,112001)\nG642"), 0.02) && close(of("G642 CTOL=0.03"), 0.03));
+    assert!(close(of("CYCLE832(0.02,112001)"), 0.02) && of("CYCLE832(0,0)") == 0.0);
+    assert_eq!(of("COMPCAD"), f64::INFINITY);
+}
+
+#[test]
+fn modal_cycles_drill_at_every_position() {
+    let hole = ["R 1 2 5", "R 1 2 2", "F 1 2 -8", "D 0.5", "R 1 2 10", "R 4 2 10", "R 4 2 2", "F 4 2 -8", "D 0.5", "R 4 2 10", "R 7 2 10"];
+    assert_eq!(legs("MCALL CYCLE82(10,0,2,-8,,0.5)\nG0 X1 Y2\nX4\nMCALL\nX7"), hole);
+    assert_eq!(legs("MCALL CYCLE82(10,0,2,,8,0.5)\nG0 X1 Y2\nX4\nMCALL\nX7"), hole);
+    let deep = "MCALL CYCLE83(10,0,2,-8,,,5,0,0.5,,1,1,,,,,0.5)\nG0 X1 Y2\nMCALL";
+    assert_eq!(legs(deep)[1..], ["R 1 2 2", "F 1 2 -5", "R 1 2 2", "R 1 2 -4.5", "F 1 2 -8", "D 0.5", "R 1 2 10"]);
+    let chip = deep.replace(",1,1,,,,,0.5", ",1,0,,,0.25");
+    assert_eq!(legs(&chip)[1..], ["R 1 2 2", "F 1 2 -5", "R 1 2 -4.75", "F 1 2 -8", "D 0.5", "R 1 2 10"]);
+}
+
+#[test]
+fn taps_and_bores_of_calls() {
+    let moves = fine("MCALL CYCLE84(10,0,2,-8,,,3,,1.5,,400)\nG0 X1 Y2\nMCALL\nG1 X9");
+    let cuts: Vec<(f64, Option<f64>)> = moves.iter().filter(|m| !m.rapid).map(|m| (m.spindle, m.feed)).collect();
+    assert_eq!(cuts, [(400.0, Some(600.0)), (-400.0, Some(600.0)), (1000.0, Some(100.0))]);
+    let moves = fine("MCALL CYCLE85(10,0,2,-8,,,80,40)\nG0 X1 Y2\nMCALL");
+    let feeds: Vec<Option<f64>> = moves.iter().filter(|m| !m.rapid).map(|m| m.feed).collect();
+    assert_eq!(feeds, [Some(80.0), Some(40.0)]);
+}
+
+#[test]
+fn the_control_refuses_what_it_refuses() {
+    for (body, words) in [
+        ("G2 X0 Y0 I-5.02 J0", "alarm 14040"),
+        ("G2 X10 Y0 CR=5", "ends where it starts"),
+        ("G1 X1 WHAT", "unknown word WHAT"),
+        ("G43 H1", "unknown code G43"),
+        ("G70", "G70 is not followed"),
+        ("G1 X1 (comment)", "bad character '('"),
+        ("G1 X=R1", "is not followed by a number"),
+        ("R1=5", "an R parameter"),
+        ("BSPLINE X1", "BSPLINE is not followed"),
+        ("CYCLE800(1)", "CYCLE800 is not followed"),
+        ("POCKET3(1,2)", "POCKET3 is not followed"),
+        ("MCALL CYCLE81(10,0,2,5)\nG0 X1", "must lie over the bottom"),
+        ("MCALL CYCLE81(10,0,2)\nG0 X1", "without DP and DPR"),
+        ("MCALL CYCLE83(10,0,2,-8)\nG0 X1", "without a first depth"),
+        ("MCALL CYCLE81(10,0,2,-8)\nMCALL CYCLE81(10,0,2,-8)", "inside another"),
+        ("G1 X1 G2", "two codes of one modal group"),
+        ("G1 X1 X2", "multiple X words"),
+        ("T=\"OPEN", "not closed by a quotation mark"),
+        ("MSG(\"a)b\") X", "unknown word X"),
+        ("G0 SUPA Z0 D99", "D99 is no cutting edge"),
+        ("MCALL CYCLE81(10,0,2,-8\nG0 X1", "is not closed"),
+    ] {
+        let got = run_it(&program(body)).faults;
+        assert!(got.iter().any(|f| f.message.contains(words)), "{body}: {got:#?}");
+    }
+    let long = format!("G1 X1 ;{}", "A".repeat(520));
+    assert!(run_it(&program(&long)).faults.iter().any(|f| f.message.contains("the control takes 512")));
+}
