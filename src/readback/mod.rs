@@ -10,6 +10,7 @@
 //! another interpreter beside this one, behind the same [`run`]. Blocks are executed one by one and handed to a
 //! [`Follow`]er as they come, so that the length of a program is no bound on memory.
 
+mod apt;
 mod curve;
 mod klartext;
 mod number;
@@ -80,7 +81,7 @@ impl core::error::Error for UnknownControl {}
 
 /// Names of the controls that can be read.
 pub fn controls() -> impl Iterator<Item = &'static str> {
-    word::CONTROLS.into_iter().map(|rules| rules.name).chain([klartext::NAME])
+    word::CONTROLS.into_iter().map(|rules| rules.name).chain([klartext::NAME, apt::NAME])
 }
 
 /// What a cut on this control needs, as facts of the control.
@@ -95,7 +96,7 @@ pub struct Needs {
 /// What a cut on `control` needs; `None` for an unknown control.
 #[must_use]
 pub fn needs(control: &str) -> Option<Needs> {
-    if control == klartext::NAME {
+    if control == klartext::NAME || control == apt::NAME {
         return Some(Needs { tool_change: true, length_offset: false });
     }
     word::find(control).map(|r| Needs { tool_change: r.tool_change, length_offset: r.length_offset })
@@ -142,6 +143,7 @@ pub struct Interpreter<'a> {
 enum Reader<'a> {
     Word(Box<word::Reader<'a>>),
     Klartext(Box<klartext::Reader<'a>>),
+    Apt(Box<apt::Reader<'a>>),
 }
 
 impl<'a> Interpreter<'a> {
@@ -153,6 +155,7 @@ impl<'a> Interpreter<'a> {
         let reader = match word::find(control) {
             Some(rules) => Reader::Word(Box::new(word::Reader::new(rules, setup))),
             None if control == klartext::NAME => Reader::Klartext(Box::new(klartext::Reader::new(setup))),
+            None if control == apt::NAME => Reader::Apt(Box::new(apt::Reader::new(setup))),
             None => return Err(UnknownControl(control.to_owned())),
         };
         Ok(Interpreter { reader, line: 0 })
@@ -167,6 +170,7 @@ impl<'a> Interpreter<'a> {
         match &mut self.reader {
             Reader::Word(reader) => reader.line(line, &mut out),
             Reader::Klartext(reader) => reader.line(line, &mut out),
+            Reader::Apt(reader) => reader.line(line, &mut out),
         }
     }
 
@@ -176,6 +180,7 @@ impl<'a> Interpreter<'a> {
         match &mut self.reader {
             Reader::Word(reader) => reader.finish(&mut out),
             Reader::Klartext(reader) => reader.finish(&mut out),
+            Reader::Apt(reader) => reader.finish(&mut out),
         }
     }
 }

@@ -1,9 +1,8 @@
 //! Arcs and helices of the CL data against the moves that stand for them.
 //!
 //! With (r, h, θ) cylindrical coordinates about the asked axis, the asked curve has r and h linear in θ. A move deviates by
-//! at most the distance to the point of the curve at its own θ. For an arc about a parallel axis that distance is
-//! bounded from its ends and the distance of the axes; a line is sampled, and what lies between the samples is
-//! bounded by its curvature as seen in these coordinates.
+//! at most the distance to the point of the curve at its own θ. Moves are sampled, and what lies between the samples is
+//! bounded by the curvature that the move has in these coordinates.
 
 use super::finding::{Finding, Text};
 use super::{ACCURACY, Case, Happening};
@@ -15,6 +14,10 @@ use crate::readback::{EventKind, Tilted, TraceMove, TracePath};
 
 /// Samples of a line; what lies between adds its sagitta over this squared.
 const SAMPLES: u32 = 64;
+/// Samples of a full turn of an arc.
+const TURN_SAMPLES: f64 = 512.0;
+/// Samples of an arc at most.
+const MOST_SAMPLES: f64 = 100_000.0;
 /// Angles below this, radians, from start to end mean a full turn.
 const NO_ANGLE: f64 = 1e-9;
 
@@ -162,21 +165,23 @@ fn measure(asked: &Asked, cut: &TraceMove, turned: f64) -> (f64, f64) {
     }
 }
 
+/// An arc's own radius and height are linear in its angle; as seen from the asked axis they swing by as much as the axes
+/// are apart or tilted.
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
 fn arc(asked: &Asked, drawn: &Tilted, turned: f64) -> (f64, f64) {
-    let along = drawn.axis.dot(&asked.axis);
-    let sense = along.signum();
-    let swept = drawn.sweep * sense;
     let apart = drawn.centre - asked.centre;
     let apart = (apart - asked.axis * apart.dot(&asked.axis)).norm();
-    // Axes that are not parallel move the far side of the arc by their angle.
     let tilt = drawn.axis.cross(&asked.axis).norm() * (drawn.radii().0.max(drawn.radii().1) + drawn.rise().abs());
-    let start = asked.place(drawn.from, turned);
-    let end = asked.place(drawn.to, start.2 + swept);
-    let ends = asked.off(start).max(asked.off(end));
-    // Where the drawn angle is not the asked one's share, the heights and radii lag by that much.
-    let lag = (end.2 - start.2 - swept).abs();
-    let slope = hypot(asked.radius.1 - asked.radius.0, asked.height.1 - asked.height.0) / asked.sweep;
-    (ends + 2.0 * apart + tilt + lag * slope, end.2)
+    let samples = (drawn.sweep.abs() / TAU * TURN_SAMPLES).ceil().clamp(8.0, MOST_SAMPLES);
+    let mut last = asked.place(drawn.from, turned);
+    let mut off = asked.off(last);
+    let way = drawn.sweep * drawn.axis.dot(&asked.axis).signum() / samples;
+    for i in 1..=samples as u32 {
+        last = asked.place(drawn.at(f64::from(i) / samples), last.2 + way);
+        off = off.max(asked.off(last));
+    }
+    let step = drawn.sweep.abs() / samples;
+    (off + 2.0 * (apart + tilt) * step * step / 8.0, last.2)
 }
 
 fn line(asked: &Asked, cut: &TraceMove, turned: f64) -> (f64, f64) {

@@ -150,7 +150,8 @@ impl<'a> Follower<'a> {
     }
 
     fn peck(&mut self, happening: &Happening<'_>, z: f64) {
-        let depth = self.reached - z;
+        // What lies above the surface is air.
+        let depth = self.reached.min(self.point.z) - z;
         let pecked = matches!(self.cycle.kind, CycleKind::Deep | CycleKind::ChipBreak);
         if let Some(most) = self.cycle.peck.filter(|most| pecked && depth > most + self.levels.near) {
             let text = Text::default().words("a peck of ").length(depth).words(" in place of ");

@@ -31,6 +31,8 @@ pub(in crate::readback) enum Mode {
     NurbsPoints,
     /// G06.2: knots and control points follow.
     NurbsKnots,
+    /// BSPLINE: control points with PW follow, until another motion.
+    BSpline,
     /// A drilling cycle.
     Cycle(CycleKind),
 }

@@ -259,7 +259,9 @@ impl Machine<'_> {
         }
         if matches!(hole.kind, CycleKind::Tap { .. } | CycleKind::Bore | CycleKind::BoreDwell) {
             self.state.feed = feed_back.or(self.state.feed);
-            self.vertical(hole.r, false, out);
+            let all_the_way = hole.kind == CycleKind::BoreDwell
+                && self.rules.cycles.is_some_and(|c| c.bore_dwell_feeds_back);
+            self.vertical(if all_the_way { hole.back } else { hole.r }, false, out);
             self.state.direction = direction;
         }
         self.vertical(hole.back, true, out);

@@ -82,6 +82,7 @@ impl<'a> Machine<'a> {
             return out.fault("a block after the end of the program");
         }
         let Some(plan) = self.decode(block, out) else { return };
+        self.spline_over(block, &plan, out);
         self.limits(block, out);
         let mut used = ALWAYS_USED;
         self.modal(block, &plan, &mut used, out);

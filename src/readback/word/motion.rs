@@ -110,7 +110,7 @@ impl Machine<'_> {
             Mode::Arc { clockwise } => self.arc(block, clockwise, used, out),
             Mode::Cycle(kind) => self.cycle(block, kind, plan, used, out),
             // Blocks of an open curve never come here.
-            Mode::NurbsPoints | Mode::NurbsKnots => {}
+            Mode::NurbsPoints | Mode::NurbsKnots | Mode::BSpline => {}
         }
     }
 

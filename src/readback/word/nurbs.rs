@@ -23,6 +23,8 @@ pub(super) struct Open {
     closing: bool,
     open: bool,
     spoilt: bool,
+    /// Line of the last control point.
+    line: u32,
 }
 
 impl Open {
@@ -45,6 +47,7 @@ impl Machine<'_> {
             return true;
         }
         match plan.motion {
+            Some(Mode::BSpline) => self.open_spline(block, used, out),
             Some(Mode::NurbsPoints) => self.open_points(block, used, out),
             Some(Mode::NurbsKnots) => self.open_knots(block, used, out),
             Some(_) if self.nurbs.open => {
@@ -53,6 +56,7 @@ impl Machine<'_> {
             }
             None if self.nurbs.open => match self.state.motion {
                 Mode::NurbsKnots => self.knot_block(block, used, out),
+                Mode::BSpline => self.spline_point(block, used, out),
                 _ => self.point_block(block, used, out),
             },
             _ => return false,
@@ -60,8 +64,11 @@ impl Machine<'_> {
         true
     }
 
-    /// Complains about a curve that the text ends in.
+    /// Complains about a curve that the text ends in; a BSPLINE simply ends.
     pub(super) fn nurbs_left_open<S: Follow>(&mut self, out: &mut Out<'_, S>) {
+        if self.nurbs.open && self.state.motion == Mode::BSpline {
+            return self.close_spline(out);
+        }
         if self.nurbs.open {
             self.left_early(out);
         }
@@ -199,6 +206,71 @@ impl Machine<'_> {
                 default
             }
         }
+    }
+
+    /// `BSPLINE SD=3`: the first control point is where the tool is; each next one is as far on in the parameter as PL
+    /// says, which must be 1 here.
+    fn open_spline<S: Follow>(&mut self, block: &Block, used: &mut u32, out: &mut Out<'_, S>) {
+        let fine = self.can_open(block, "BSPLINE", out);
+        self.state.motion = Mode::BSpline;
+        let degree = block.words.as_ref().and_then(|w| w.degree).unwrap_or(3.0);
+        let order = match degree {
+            2.0 => 3,
+            3.0 => 4,
+            _ => {
+                out.fault(format!("SD={degree}: a BSPLINE has the degree 2 or 3"));
+                4
+            }
+        };
+        self.nurbs.begin(order);
+        self.nurbs.spoilt = !fine;
+        self.nurbs.points.push(Point2::new(self.state.position[0], self.state.position[1]));
+        self.nurbs.weights.push(1.0);
+        self.spline_point(block, used, out);
+    }
+
+    /// A block without a control point ends a BSPLINE, before anything in it takes effect.
+    pub(super) fn spline_over<S: Follow>(&mut self, block: &Block, plan: &Plan, out: &mut Out<'_, S>) {
+        let open = self.nurbs.open && self.state.motion == Mode::BSpline;
+        if open && (plan.motion.is_some() || !(block.has(b'X') || block.has(b'Y'))) {
+            self.close_spline(out);
+        }
+    }
+
+    fn spline_point<S: Follow>(&mut self, block: &Block, used: &mut u32, out: &mut Out<'_, S>) {
+        let words = block.words.as_ref();
+        *used |= bit(b'X') | bit(b'Y');
+        if !block.has(b'X') && !block.has(b'Y') {
+            return;
+        }
+        let weight = words.and_then(|w| w.weight).unwrap_or(1.0);
+        let interval = words.and_then(|w| w.interval).unwrap_or(1.0);
+        if !(weight > 0.0 && weight <= 3.0) {
+            self.nurbs.spoilt = true;
+            out.fault(format!("PW={weight}: a control point has a weight over 0 and up to 3"));
+        }
+        if interval != 1.0 {
+            self.nurbs.spoilt = true;
+            out.fault(format!("PL={interval}, this reader follows uniform knots (1) only"));
+        }
+        let target = self.target(block, out);
+        self.nurbs.line = out.line;
+        self.add_point(&target, weight, out);
+    }
+
+    /// The curve is over; it counts to the line of its last point.
+    fn close_spline<S: Follow>(&mut self, out: &mut Out<'_, S>) {
+        let curve = core::mem::take(&mut self.nurbs);
+        self.state.motion = Mode::None;
+        let (n, order) = (curve.points.len(), curve.order);
+        let line = core::mem::replace(&mut out.line, curve.line.max(1));
+        if n < order {
+            out.fault(format!("a BSPLINE of {n} control points, its order needs {order} at least"));
+        } else if !curve.spoilt {
+            let knots = uniform_knots(n, order);
+            self.hand_on(curve, knots, out);
+        }
+        out.line = line;
     }
 
     fn open_knots<S: Follow>(&mut self, block: &Block, used: &mut u32, out: &mut Out<'_, S>) {

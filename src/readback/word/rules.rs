@@ -102,6 +102,8 @@ pub(in crate::readback) struct Cycles {
     pub needs_motion: bool,
     /// A hole below the initial height is reached at `R` or the initial height, whichever is higher, under G98.
     pub higher_return: bool,
+    /// G89 goes all the way back at feed.
+    pub bore_dwell_feeds_back: bool,
 }
 
 /// Ways to cut a line into words.

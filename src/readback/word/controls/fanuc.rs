@@ -74,6 +74,7 @@ pub(in crate::readback::word) const CYCLES: Cycles = Cycles {
     repeats: b'K',
     needs_motion: false,
     higher_return: false,
+    bore_dwell_feeds_back: false,
 };
 
 /// The drilling cycles that most controls share.

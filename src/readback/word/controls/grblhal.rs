@@ -11,6 +11,7 @@ pub(super) const RULES: Rules =
 const CYCLES: Cycles = Cycles {
     with_dwell: &[CycleKind::Dwell, CycleKind::BoreStop, CycleKind::BoreDwell],
     dwell: Dwell::Seconds,
+    bore_dwell_feeds_back: false,
     ..linuxcnc::CYCLES
 };
 

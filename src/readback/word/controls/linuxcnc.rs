@@ -88,6 +88,7 @@ pub(super) const CYCLES: Cycles = Cycles {
     repeats: b'L',
     needs_motion: true,
     higher_return: true,
+    bore_dwell_feeds_back: true,
 };
 
 pub(super) fn g(tenths: u16) -> Option<G> {

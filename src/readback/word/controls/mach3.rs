@@ -17,6 +17,7 @@ pub(super) const RULES: Rules = Rules {
     unpointed: Unpointed::Whole,
     most_m: 4,
     g,
+    cycles: Some(&SECONDS),
     arc_turns: false,
     arc_mode_stated: true,
     feed_reset: FeedReset::Change,
@@ -29,7 +30,8 @@ pub(super) const RULES: Rules = Rules {
 pub(super) const MILLISECONDS: Rules =
     Rules { name: "mach3-ms", dwell: &[(b'P', Dwell::Milliseconds)], cycles: Some(&CYCLES), ..RULES };
 
-const CYCLES: Cycles = Cycles { dwell: Dwell::Milliseconds, ..linuxcnc::CYCLES };
+const SECONDS: Cycles = Cycles { bore_dwell_feeds_back: false, ..linuxcnc::CYCLES };
+const CYCLES: Cycles = Cycles { dwell: Dwell::Milliseconds, ..SECONDS };
 
 fn g(tenths: u16) -> Option<G> {
     Some(match tenths {

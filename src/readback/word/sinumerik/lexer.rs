@@ -175,6 +175,18 @@ impl Lexer<'_, '_> {
                 let value = self.number().map(|n| n.value);
                 block.words().tolerance = value;
             }
+            "SD" | "PW" | "PL" if self.eat(b'=') => {
+                let value = self.number().map(|n| n.value);
+                if value.is_none() {
+                    (self.fault)(format!("{name} without its number"));
+                }
+                let words = block.words();
+                match name {
+                    "SD" => words.degree = value,
+                    "PW" => words.weight = value,
+                    _ => words.interval = value,
+                }
+            }
             "MCALL" => {
                 block.words().modal_call = true;
             }

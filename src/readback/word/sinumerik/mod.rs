@@ -23,6 +23,12 @@ pub(in crate::readback) struct Words {
     pub incremental: u32,
     /// `TURN=`.
     pub turns: Option<f64>,
+    /// `SD=`: degree of a spline.
+    pub degree: Option<f64>,
+    /// `PW=`: weight of a control point.
+    pub weight: Option<f64>,
+    /// `PL=`: length of a parameter interval.
+    pub interval: Option<f64>,
     /// `CTOL=`, `ADIS=`, in the unit in force.
     pub tolerance: Option<f64>,
     /// `T="…"`.
@@ -147,6 +153,7 @@ fn g(tenths: u16) -> Option<G> {
         710 | 7100 => G::Units { inch: false },
         7000 => G::Units { inch: true },
         900 | 910 => G::Distance { incremental: tenths == 910 },
+        10_200 => G::Motion(Mode::BSpline),
         930 => G::Feed(FeedMode::InverseTime),
         940 => G::Feed(FeedMode::PerMinute),
         950 => G::Feed(FeedMode::PerRevolution),
@@ -160,7 +167,7 @@ fn g(tenths: u16) -> Option<G> {
 
 fn unfollowed(tenths: u16) -> Option<G> {
     Some(G::Unfollowed(match tenths {
-        50 | 70 | 330 | 10_200..=10_231 => Group::Motion,
+        50 | 70 | 330 | 10_210..=10_231 => Group::Motion,
         410 | 420 => Group::Radius,
         700 => Group::Units,
         250 | 260 | 740 | 750 | 1100 | 1110 | 1120 => Group::Once,

@@ -121,7 +121,7 @@ fn the_control_refuses_what_it_refuses() {
         ("G1 X1 (comment)", "bad character '('"),
         ("G1 X=R1", "is not followed by a number"),
         ("R1=5", "an R parameter"),
-        ("BSPLINE X1", "BSPLINE is not followed"),
+        ("POLY X1", "POLY is not followed"),
         ("CYCLE800(1)", "CYCLE800 is not followed"),
         ("POCKET3(1,2)", "POCKET3 is not followed"),
         ("MCALL CYCLE81(10,0,2,5)\nG0 X1", "must lie over the bottom"),
@@ -140,4 +140,25 @@ fn the_control_refuses_what_it_refuses() {
     }
     let long = format!("G1 X1 ;{}", "A".repeat(520));
     assert!(run_it(&program(&long)).faults.iter().any(|f| f.message.contains("the control takes 512")));
+}
+
+#[test]
+fn a_bspline_starts_where_the_tool_is_and_ends_with_the_next_motion() {
+    let moves = fine("BSPLINE SD=3 F50\nX11 Y1\nX12 Y3 PW=2\nX14 Y3\nX15 Y0\nG1 X16");
+    let TracePath::Nurbs { order, points, weights, knots } = &moves[0].path else { panic!("{:?}", moves[0]) };
+    assert_eq!((*order, points.len()), (4, 5));
+    assert_eq!(points[0], Point2::new(10.0, 0.0));
+    assert_eq!(weights, &[1.0, 1.0, 2.0, 1.0, 1.0]);
+    assert_eq!(knots, &[0.0, 0.0, 0.0, 0.0, 1.0, 2.0, 2.0, 2.0, 2.0]);
+    let line_of = run_it(&program("BSPLINE SD=3 F50\nX11 Y1\nX12 Y3\nX14 Y3\nX15 Y0\nG1 X16")).events[2].line;
+    assert_eq!(line_of, 12);
+    for (body, words) in [
+        ("BSPLINE SD=3 F50\nX11 Y1\nG1 X12", "needs 4"),
+        ("BSPLINE SD=5 F50\nX11 Y1\nG1 X12", "degree 2 or 3"),
+        ("BSPLINE\nX11 Y1 PW=0\nX12\nX13\nG1 X12", "PW=0"),
+        ("BSPLINE\nX11 Y1 PL=2\nX12\nX13\nG1 X12", "PL=2"),
+    ] {
+        let got = run_it(&program(body)).faults;
+        assert!(got.iter().any(|f| f.message.contains(words)), "{body}: {got:#?}");
+    }
 }
