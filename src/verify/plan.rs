@@ -26,13 +26,11 @@ pub(super) struct Context {
     pub operation: Option<usize>,
     /// Index into the target program's tools, if one is loaded.
     pub tool: Option<u32>,
-    /// Coolant that was switched last.
-    pub coolant: Coolant,
 }
 
 impl Context {
     /// Before the first block.
-    pub(super) const START: Context = Context { operation: None, tool: None, coolant: Coolant::Off };
+    pub(super) const START: Context = Context { operation: None, tool: None };
 }
 
 /// Context of every block.
@@ -49,7 +47,6 @@ pub(super) fn contexts(target: &TargetProgram) -> Vec<Context> {
                     begun += 1;
                 }
                 BlockKind::ToolChange(tool) => now.tool = Some(*tool),
-                BlockKind::Coolant(coolant) => now.coolant = *coolant,
                 _ => {}
             }
             now

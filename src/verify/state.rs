@@ -4,7 +4,6 @@ use super::finding::{Finding, Text};
 use super::{Case, Placed};
 use crate::cl::RecordKind;
 use crate::diag::codes::verification as codes;
-use crate::ir::Coolant;
 use crate::target::{BlockKind, FeedWord, Motion, power_of_ten};
 
 /// How far a feed along the path may differ from the one commanded, as a share of it. Covers the rounding of F words,
@@ -34,9 +33,6 @@ pub(super) fn check(case: &Case<'_>, placed: &Placed<'_>) -> Vec<Finding> {
         say(&codes::NOT_READY, Text::default().words("a cut before the tool's length is taken in (G43)"));
     }
     if let Some(text) = tool(case, placed) {
-        say(&codes::NOT_READY, text);
-    }
-    if let Some(text) = coolant(case, placed) {
         say(&codes::NOT_READY, text);
     }
     if let Some(text) = spindle(case, placed) {
@@ -93,23 +89,6 @@ fn spindle(case: &Case<'_>, placed: &Placed<'_>) -> Option<Text> {
     let got = placed.cut.spindle;
     (got != 0.0 && (got - wanted).abs() > SPEED_TOLERANCE)
         .then(|| Text::default().words(format!("a cut at {} in place of {}", turning(got), turning(wanted))))
-}
-
-/// The coolant is what was switched last.
-fn coolant(case: &Case<'_>, placed: &Placed<'_>) -> Option<Text> {
-    let wanted = case.context(placed.block).coolant;
-    let got = placed.cut.coolant;
-    let fits = match wanted {
-        Coolant::Off => !got.flood && !got.mist,
-        Coolant::Flood => got.flood,
-        Coolant::Mist => got.mist,
-    };
-    let name = |on: bool, what: &str| if on { format!(" {what}") } else { String::new() };
-    (!fits).then(|| {
-        let on = name(got.flood, "flood") + &name(got.mist, "mist");
-        let on = if on.is_empty() { " no".to_owned() } else { on };
-        Text::default().words(format!("a cut with{on} coolant in place of {wanted:?}").to_lowercase())
-    })
 }
 
 fn turning(rpm: f64) -> String {
