@@ -108,7 +108,8 @@ fn one(
     happenings: &[Happening<'_>],
     record: usize,
 ) -> Vec<Finding> {
-    let say = |line: u32, block: Option<usize>, text: Text| Finding::new(&codes::NOT_FOLLOWED, line, block, text);
+    let say =
+        |line: u32, block: Option<usize>, text: Text| Finding::new(&codes::NOT_FOLLOWED, line, block, text);
     let Some(asked) = Asked::new(from, circle) else { return Vec::new() };
     let grid = &case.target.capabilities.grid;
     let rounding = 2.0 * grid.linear_step() + grid.centre_step();
@@ -139,11 +140,13 @@ fn one(
     if let Some((off, happening)) = worst {
         if !((turned - asked.sweep).abs() * radius <= 2.0 * rounding) {
             let degrees = |a: f64| a / crate::math::DEG;
-            let text = format!("an arc of {:.4} deg in place of {:.4} deg", degrees(turned), degrees(asked.sweep));
+            let text =
+                format!("an arc of {:.4} deg in place of {:.4} deg", degrees(turned), degrees(asked.sweep));
             findings.push(say(happening.line, happening.block, Text::default().words(text)));
         }
         if !(off <= allowed) {
-            let text = Text::default().words("the path deviates ").length(off).words(" from an arc; it may by ");
+            let text =
+                Text::default().words("the path deviates ").length(off).words(" from an arc; it may by ");
             let text = text.length(circle.tolerance);
             findings.push(Finding::new(&codes::OUT_OF_TOLERANCE, happening.line, happening.block, text));
         }
@@ -171,7 +174,8 @@ fn measure(asked: &Asked, cut: &TraceMove, turned: f64) -> (f64, f64) {
 fn arc(asked: &Asked, drawn: &Tilted, turned: f64) -> (f64, f64) {
     let apart = drawn.centre - asked.centre;
     let apart = (apart - asked.axis * apart.dot(&asked.axis)).norm();
-    let tilt = drawn.axis.cross(&asked.axis).norm() * (drawn.radii().0.max(drawn.radii().1) + drawn.rise().abs());
+    let tilt =
+        drawn.axis.cross(&asked.axis).norm() * (drawn.radii().0.max(drawn.radii().1) + drawn.rise().abs());
     let samples = (drawn.sweep.abs() / TAU * TURN_SAMPLES).ceil().clamp(8.0, MOST_SAMPLES);
     let mut last = asked.place(drawn.from, turned);
     let mut off = asked.off(last);

@@ -59,7 +59,9 @@ fn unasked(case: &Case<'_>, happening: &Happening<'_>) -> Option<Finding> {
     let text = match (happening.kind, block) {
         (EventKind::Dwell(_), Some(BlockKind::Dwell(_) | BlockKind::Hole(_))) => return None,
         // A spindle may be given time to reach its speed.
-        (EventKind::Dwell(_), Some(BlockKind::Spindle(_) | BlockKind::Begin | BlockKind::ToolChange(_))) => return None,
+        (EventKind::Dwell(_), Some(BlockKind::Spindle(_) | BlockKind::Begin | BlockKind::ToolChange(_))) => {
+            return None;
+        }
         (EventKind::Dwell(s), _) => format!("a dwell of {s:.3} s that nothing asks for"),
         (EventKind::ToolChange(got), Some(BlockKind::ToolChange(tool))) => {
             let number = case.target.tools.get(*tool as usize).and_then(|t| t.number)?;
@@ -69,7 +71,10 @@ fn unasked(case: &Case<'_>, happening: &Happening<'_>) -> Option<Finding> {
             format!("tool {got} is changed in, in place of {number}")
         }
         (EventKind::ToolChange(got), _) => format!("a change to tool {got} that nothing asks for"),
-        (EventKind::Stop { .. }, Some(BlockKind::Stop | BlockKind::OptionalStop | BlockKind::ToolChange(_))) => {
+        (
+            EventKind::Stop { .. },
+            Some(BlockKind::Stop | BlockKind::OptionalStop | BlockKind::ToolChange(_)),
+        ) => {
             return None;
         }
         (EventKind::Stop { .. }, _) => "a stop that nothing asks for".to_owned(),

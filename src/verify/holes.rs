@@ -120,7 +120,10 @@ impl<'a> Follower<'a> {
         let known = cut.known[0] && cut.known[1];
         let across = known && (to.xy() - from.xy()).norm() > ACCURACY;
         if across && (!cut.rapid || from.z.min(to.z) < self.levels.clearance - near) {
-            self.say(happening, Text::default().words("the hole is approached below its clearance level or at feed"));
+            self.say(
+                happening,
+                Text::default().words("the hole is approached below its clearance level or at feed"),
+            );
         }
         if !((to.xy() - self.point.xy()).norm() <= near) && (!cut.rapid || to.z < from.z - ACCURACY) {
             let text = Text::default().words("a hole at ").point(to.x, to.y).words(" in place of ");
@@ -210,14 +213,18 @@ impl<'a> Follower<'a> {
         };
         let got = cut.feed.unwrap_or(0.0);
         if !((got - wanted).abs() <= FEED_TOLERANCE * wanted + feed_step(self.case)) {
-            let text = Text::default().words("a hole is cut at ").feed(got).words(" in place of ").feed(wanted);
+            let text =
+                Text::default().words("a hole is cut at ").feed(got).words(" in place of ").feed(wanted);
             self.findings.push(Finding::new(&codes::WRONG_FEED, happening.line, happening.block, text));
         }
         if let CycleKind::Tap { left, .. } = self.cycle.kind
             && cut.z.1 < cut.z.0
             && sign(cut.spindle) != if left { -1.0 } else { 1.0 }
         {
-            self.say(happening, Text::default().words("the tap goes in with the spindle turning the other way"));
+            self.say(
+                happening,
+                Text::default().words("the tap goes in with the spindle turning the other way"),
+            );
         }
     }
 
@@ -229,11 +236,13 @@ impl<'a> Follower<'a> {
             return vec![Finding::new(&codes::NOT_FOLLOWED, 0, block, place)];
         };
         if !((self.reached - self.levels.bottom).abs() <= self.levels.near) {
-            let text = Text::default().words("the hole ends at Z ").length(self.reached).words(" in place of ");
+            let text =
+                Text::default().words("the hole ends at Z ").length(self.reached).words(" in place of ");
             self.say(happening, text.length(self.levels.bottom));
         }
         if !((z - self.levels.after).abs() <= self.levels.near) {
-            let text = Text::default().words("the tool is at Z ").length(z).words(" after the hole in place of ");
+            let text =
+                Text::default().words("the tool is at Z ").length(z).words(" after the hole in place of ");
             self.say(happening, text.length(self.levels.after));
         }
         let asked = self.cycle.dwell.unwrap_or(0.0);

@@ -283,7 +283,8 @@ fn placed<'t>(trace: &'t Trace, lines: &Lines) -> Vec<Placed<'t>> {
 }
 
 fn happenings<'t>(trace: &'t Trace, lines: &Lines) -> Vec<Happening<'t>> {
-    let place = |e: &'t readback::TraceEvent| Happening { line: e.line, block: lines.block(e.line), kind: &e.kind };
+    let place =
+        |e: &'t readback::TraceEvent| Happening { line: e.line, block: lines.block(e.line), kind: &e.kind };
     trace.events.iter().map(place).collect()
 }
 

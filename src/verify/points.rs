@@ -83,7 +83,9 @@ pub(super) fn block_ends(case: &Case<'_>, lines: &[(u32, u32)]) -> Vec<Finding> 
             }
             Some(BlockKind::Motion(_)) => None,
             Some(BlockKind::Insert(_) | BlockKind::Hole(_)) => None,
-            Some(BlockKind::Begin | BlockKind::End | BlockKind::ToolChange(_) | BlockKind::EndCycle) => dives(placed),
+            Some(BlockKind::Begin | BlockKind::End | BlockKind::ToolChange(_) | BlockKind::EndCycle) => {
+                dives(placed)
+            }
             _ => Some(Text::default().words("a motion that the lowered program does not have")),
         };
         findings.extend(text.map(|t| Finding::new(&codes::NOT_AS_LOWERED, placed.line, placed.block, t)));
@@ -221,7 +223,8 @@ fn drawn(path: &TracePath) -> Option<(usize, Vec2, bool)> {
         TracePath::Tilted(arc) => {
             let offset = arc.centre - arc.from;
             let along = |axis: usize| arc.axis[axis].abs() > 0.5;
-            let [first, second, third] = [Plane::Zx, Plane::Yz, Plane::Xy].map(Plane::axes).into_iter().find(|a| along(a[2]))?;
+            let [first, second, third] =
+                [Plane::Zx, Plane::Yz, Plane::Xy].map(Plane::axes).into_iter().find(|a| along(a[2]))?;
             let clockwise = (arc.sweep < 0.0) == (arc.axis[third] > 0.0);
             Some((third, Vec2::new(offset[first], offset[second]), clockwise))
         }

@@ -111,7 +111,9 @@ fn feed(case: &Case<'_>, placed: &Placed<'_>) -> Option<Text> {
     let got = placed.cut.feed.unwrap_or(0.0);
     // Holes have checks of their own.
     let hole = placed.block.and_then(|b| case.target.blocks.get(b)).and_then(|b| b.record);
-    let hole = hole.and_then(|r| case.cl.records.get(r as usize)).is_some_and(|r| matches!(r.kind, RecordKind::Hole(_)));
+    let hole = hole
+        .and_then(|r| case.cl.records.get(r as usize))
+        .is_some_and(|r| matches!(r.kind, RecordKind::Hole(_)));
     if hole || placed.cut.length() == 0.0 {
         return None;
     }

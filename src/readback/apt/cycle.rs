@@ -65,7 +65,8 @@ impl Reader<'_> {
             return out.fault("CYCLE without FEDTO, the depth");
         }
         let pecks = matches!(kind, Kind::Deep | Kind::BreakChip);
-        if pecks && !cycle.step.is_some_and(|s| s > 0.0 && (cycle.depth + cycle.clearance) / s <= MOST_PECKS) {
+        if pecks && !cycle.step.is_some_and(|s| s > 0.0 && (cycle.depth + cycle.clearance) / s <= MOST_PECKS)
+        {
             return out.fault("CYCLE in pecks without a STEP");
         }
         if kind == Kind::Tap && cycle.pitch.is_none() {

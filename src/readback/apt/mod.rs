@@ -85,7 +85,9 @@ impl<'a> Reader<'a> {
             out.fault(format!("bad character: byte 0x{c:02X}"));
         }
         let text = String::from_utf8_lossy(line);
-        let free = |word: &str| text.trim_start().strip_prefix(word).is_some_and(|r| r.is_empty() || r.starts_with(['/', ' ']));
+        let free = |word: &str| {
+            text.trim_start().strip_prefix(word).is_some_and(|r| r.is_empty() || r.starts_with(['/', ' ']))
+        };
         if ["PARTNO", "PPRINT", "INSERT"].into_iter().any(free) {
             return;
         }
@@ -237,7 +239,8 @@ impl<'a> Reader<'a> {
 
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
     fn load<S: Follow>(&mut self, number: Option<&str>, out: &mut Out<'_, S>) {
-        let Some(number) = number.and_then(value).filter(|n| n.fract() == 0.0 && (0.0..1e9).contains(n)) else {
+        let Some(number) = number.and_then(value).filter(|n| n.fract() == 0.0 && (0.0..1e9).contains(n))
+        else {
             return out.fault("a tool change without the tool's number");
         };
         self.tool = number as u32;
@@ -271,7 +274,14 @@ impl<'a> Reader<'a> {
         self.emit(TracePath::Line { from: from.xy(), to: to.xy() }, from, to, rapid, out);
     }
 
-    fn round<S: Follow>(&mut self, to: Point3, centre: Point3, axis: Vec3, radius: f64, out: &mut Out<'_, S>) {
+    fn round<S: Follow>(
+        &mut self,
+        to: Point3,
+        centre: Point3,
+        axis: Vec3,
+        radius: f64,
+        out: &mut Out<'_, S>,
+    ) {
         if !self.known {
             out.fault("CIRCLE from a position that is not known");
             return self.straight(to, false, out);
@@ -279,7 +289,10 @@ impl<'a> Reader<'a> {
         let from = self.at;
         let level = |p: Point3| p - centre - axis * (p - centre).dot(&axis);
         let (a, b) = (level(from), level(to));
-        if a.norm() <= WHOLE || (a.norm() - radius).abs() > OFF_CIRCLE || (b.norm() - radius).abs() > OFF_CIRCLE {
+        if a.norm() <= WHOLE
+            || (a.norm() - radius).abs() > OFF_CIRCLE
+            || (b.norm() - radius).abs() > OFF_CIRCLE
+        {
             let u = self.unit();
             out.fault(format!(
                 "the points are {:.6} and {:.6} from the axis, the radius is {:.6}",
@@ -301,7 +314,14 @@ impl<'a> Reader<'a> {
         self.emit(path, from, to, false, out);
     }
 
-    fn emit<S: Follow>(&mut self, path: TracePath, from: Point3, to: Point3, rapid: bool, out: &mut Out<'_, S>) {
+    fn emit<S: Follow>(
+        &mut self,
+        path: TracePath,
+        from: Point3,
+        to: Point3,
+        rapid: bool,
+        out: &mut Out<'_, S>,
+    ) {
         if !rapid && self.feed.is_none() {
             out.fault("a cut without FEDRAT before it");
         }

@@ -136,7 +136,13 @@ impl Reader<'_> {
             "X" => Some(0),
             "Y" => Some(1),
             "Z" => Some(2),
-            l if self.setup.rotary_letter().is_some_and(|r| l.len() == 1 && l.as_bytes().first() == Some(&r)) => Some(3),
+            l if self
+                .setup
+                .rotary_letter()
+                .is_some_and(|r| l.len() == 1 && l.as_bytes().first() == Some(&r)) =>
+            {
+                Some(3)
+            }
             _ => None,
         };
         if let Some(slot) = axis.and_then(|a: usize| asked.axes.get_mut(a)) {
@@ -224,7 +230,9 @@ impl Reader<'_> {
                     Some((_, n)) => number = Some(*n),
                     None => out.fault(format!("no tool \"{name}\" in the tool table")),
                 },
-                Word::Address(a, value) if a == "S" && (0.0..=99_999.999).contains(value) => self.state.speed = *value,
+                Word::Address(a, value) if a == "S" && (0.0..=99_999.999).contains(value) => {
+                    self.state.speed = *value
+                }
                 Word::Address(a, value) if a == "F" => self.state.feed = Some(self.scaled_feed(*value)),
                 other => out.fault(format!("{} in a tool call", shown(other))),
             }

@@ -78,7 +78,8 @@ impl Reader<'_> {
 
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
     fn preset<S: Follow>(&mut self, values: &BTreeMap<u32, f64>, out: &mut Out<'_, S>) {
-        let Some(&number) = values.get(&339).filter(|n| n.fract() == 0.0 && (0.0..=65_000.0).contains(*n)) else {
+        let Some(&number) = values.get(&339).filter(|n| n.fract() == 0.0 && (0.0..=65_000.0).contains(*n))
+        else {
             return out.fault("CYCL DEF 247 without the preset's number Q339");
         };
         let number = number as u16 + 1;
@@ -177,7 +178,11 @@ impl Reader<'_> {
         let (leave, chip, advance) = match cycle.number {
             201 => (Leave::Feed(back), None, clearance),
             202 => (Leave::Oriented(back), None, clearance),
-            203 => (if raw(208) > 0.0 { Leave::Feed(back) } else { Leave::Rapid }, self.chip_break(cycle, &raw), clearance),
+            203 => (
+                if raw(208) > 0.0 { Leave::Feed(back) } else { Leave::Rapid },
+                self.chip_break(cycle, &raw),
+                clearance,
+            ),
             205 => (Leave::Rapid, None, need(258).abs() * u),
             206 | 207 => (Leave::Reversed, None, clearance),
             _ => (Leave::Rapid, None, clearance),
@@ -189,7 +194,18 @@ impl Reader<'_> {
         self.sound(cycle, depth, feed, peck, out)?;
         let dwell = if cycle.number == 207 { 0.0 } else { raw(211) };
         let bottom = surface + depth;
-        Some(Hole { clearance: surface + clearance, surface, bottom, second: surface + second, feed, peck, dwell, leave, chip, advance })
+        Some(Hole {
+            clearance: surface + clearance,
+            surface,
+            bottom,
+            second: surface + second,
+            feed,
+            peck,
+            dwell,
+            leave,
+            chip,
+            advance,
+        })
     }
 
     /// Cycle 203 breaks the chip Q213 times before it leaves the hole.
@@ -201,10 +217,21 @@ impl Reader<'_> {
     }
 
     /// What the control or the proof can't do with.
-    fn sound<S: Follow>(&self, cycle: &Defined, depth: f64, feed: f64, peck: f64, out: &mut Out<'_, S>) -> Option<()> {
+    fn sound<S: Follow>(
+        &self,
+        cycle: &Defined,
+        depth: f64,
+        feed: f64,
+        peck: f64,
+        out: &mut Out<'_, S>,
+    ) -> Option<()> {
         let raw = |index: u32| cycle.values.get(&index).copied().unwrap_or(0.0);
         if depth >= 0.0 {
-            out.fault(format!("the depth Q201={} of cycle {} must be negative", depth / self.unit(), cycle.number));
+            out.fault(format!(
+                "the depth Q201={} of cycle {} must be negative",
+                depth / self.unit(),
+                cycle.number
+            ));
             return None;
         }
         if !(feed > 0.0) {
@@ -233,7 +260,8 @@ impl Reader<'_> {
     fn work_off<S: Follow>(&mut self, hole: &Hole, out: &mut Out<'_, S>) {
         let kept = (self.state.feed, self.state.direction, self.state.per_revolution);
         self.state.per_revolution = false;
-        let pitch = self.state.cycle.as_ref().filter(|c| c.number == 207).and_then(|c| c.values.get(&239).copied());
+        let pitch =
+            self.state.cycle.as_ref().filter(|c| c.number == 207).and_then(|c| c.values.get(&239).copied());
         if let Some(pitch) = pitch {
             self.state.direction = if pitch < 0.0 { -1.0 } else { 1.0 };
         }
@@ -302,7 +330,8 @@ impl Reader<'_> {
 
 /// `9.1 DWELL 1.5`, seconds.
 fn dwell<S: Follow>(words: &[Word], out: &mut Out<'_, S>) {
-    let seconds = words.iter().rev().find_map(|w| if let Word::Name(n) = w { super::words::value_of(n) } else { None });
+    let seconds =
+        words.iter().rev().find_map(|w| if let Word::Name(n) = w { super::words::value_of(n) } else { None });
     match seconds {
         Some(s) if (0.0..=3600.0).contains(&s) => out.event(EventKind::Dwell(s)),
         Some(s) => out.fault(format!("a dwell of {s} s is not in 0 to 3600")),

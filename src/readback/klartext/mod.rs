@@ -148,7 +148,9 @@ impl<'a> Reader<'a> {
         let end = text.find(|c: char| !c.is_ascii_digit()).unwrap_or(text.len());
         let (number, rest) = text.split_at(end);
         match number.parse::<u64>() {
-            Ok(n) if n == self.frame.next && (rest.is_empty() || rest.starts_with(' ')) => self.frame.next += 1,
+            Ok(n) if n == self.frame.next && (rest.is_empty() || rest.starts_with(' ')) => {
+                self.frame.next += 1
+            }
             Ok(n) => {
                 out.fault(format!("block number {n} where {} is next", self.frame.next));
                 self.frame.next = n.saturating_add(1);
@@ -191,7 +193,8 @@ impl<'a> Reader<'a> {
         let same = |name: &str, unit: &str| {
             self.frame.name.as_ref().is_some_and(|(n, _)| n == name) && (unit == "INCH") == inch
         };
-        let fits = matches!(names.as_slice(), ["END", "PGM", name, unit @ ("MM" | "INCH")] if same(name, unit));
+        let fits =
+            matches!(names.as_slice(), ["END", "PGM", name, unit @ ("MM" | "INCH")] if same(name, unit));
         // A name that looks like an address is no name to the lexer.
         let looks = words.len() == 4 && !fits && matches!(words.get(2), Some(words::Word::Address(..)));
         if !fits && !looks {

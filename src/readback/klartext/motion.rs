@@ -46,7 +46,12 @@ impl Reader<'_> {
         }
     }
 
-    fn straight_path<S: Follow>(&self, from: &[f64; 4], to: &[f64; 4], out: &mut Out<'_, S>) -> Option<TracePath> {
+    fn straight_path<S: Follow>(
+        &self,
+        from: &[f64; 4],
+        to: &[f64; 4],
+        out: &mut Out<'_, S>,
+    ) -> Option<TracePath> {
         if self.setup.rotary.is_none() || from[ROTARY] == to[ROTARY] {
             return Some(TracePath::Line { from: self.in_part(from), to: self.in_part(to) });
         }
@@ -152,7 +157,9 @@ impl Reader<'_> {
         }
         let swept = if incremental {
             if angle.abs() > LARGEST_ANGLE || angle == 0.0 || (angle < 0.0) != clockwise {
-                out.fault(format!("IPA{angle:+} must not be 0, have DR's sign and not be over {LARGEST_ANGLE}"));
+                out.fault(format!(
+                    "IPA{angle:+} must not be 0, have DR's sign and not be over {LARGEST_ANGLE}"
+                ));
                 return self.arrive(to, asked);
             }
             angle * DEG
@@ -207,7 +214,14 @@ impl Reader<'_> {
         off <= CIRCLE_DEVIATION
     }
 
-    fn arc<S: Follow>(&mut self, centre: Point2, sweep: f64, to: [f64; 4], asked: &Asked, out: &mut Out<'_, S>) {
+    fn arc<S: Follow>(
+        &mut self,
+        centre: Point2,
+        sweep: f64,
+        to: [f64; 4],
+        asked: &Asked,
+        out: &mut Out<'_, S>,
+    ) {
         let from = self.state.position;
         let middle = self.in_part(&[centre.x, centre.y, 0.0, from[ROTARY]]);
         let path = TracePath::Arc { from: self.in_part(&from), to: self.in_part(&to), centre: middle, sweep };

@@ -143,7 +143,10 @@ fn the_frame_is_numbered_and_named() {
 
 #[test]
 fn tools_dwells_stops_and_tolerances() {
-    let text = program("MM", "CYCL DEF 32.0 TOLERANCE\nCYCL DEF 32.1 T0.02\nL X+1 F100\nSTOP\nCYCL DEF 9.0 DWELL TIME\nCYCL DEF 9.1 DWELL 1.5\nTOOL CALL 2 Z S500 F80\nL Z+5 FMAX M4\nL X+3 Y+0 FMAX\nCYCL DEF 32.0 TOLERANCE\nCYCL DEF 32.1\nL X+4");
+    let text = program(
+        "MM",
+        "CYCL DEF 32.0 TOLERANCE\nCYCL DEF 32.1 T0.02\nL X+1 F100\nSTOP\nCYCL DEF 9.0 DWELL TIME\nCYCL DEF 9.1 DWELL 1.5\nTOOL CALL 2 Z S500 F80\nL Z+5 FMAX M4\nL X+3 Y+0 FMAX\nCYCL DEF 32.0 TOLERANCE\nCYCL DEF 32.1\nL X+4",
+    );
     let trace = trace(&text);
     assert_eq!(trace.faults, []);
     let kinds: Vec<String> = trace
@@ -154,7 +157,15 @@ fn tools_dwells_stops_and_tolerances() {
             other => format!("{other:?}"),
         })
         .collect();
-    let wanted = ["1 1000 0.02 Some(100.0)", "Stop { optional: false }", "Dwell(1.5)", "ToolChange(2)", "2 -500 0.02 None", "2 -500 0.02 None", "2 -500 0 Some(80.0)"];
+    let wanted = [
+        "1 1000 0.02 Some(100.0)",
+        "Stop { optional: false }",
+        "Dwell(1.5)",
+        "ToolChange(2)",
+        "2 -500 0.02 None",
+        "2 -500 0.02 None",
+        "2 -500 0 Some(80.0)",
+    ];
     assert_eq!(kinds[3..10], wanted);
 }
 
@@ -177,9 +188,11 @@ fn chips_break_taps_turn_back_and_bores_come_out_at_feed() {
         legs(&format!("{chip}\nL X+1 Y+2 FMAX M99"))[1..],
         ["R 1 2 2", "F 1 2 -5", "R 1 2 -4.5", "F 1 2 -8", "D 0.5", "R 1 2 10"]
     );
-    let tap = "CYCL DEF 207 TAPPING ~\nQ200=+2 ~\nQ201=-8 ~\nQ239=+1.5 ~\nQ203=+0 ~\nQ204=+10\nL X+1 Y+2 FMAX M99";
+    let tap =
+        "CYCL DEF 207 TAPPING ~\nQ200=+2 ~\nQ201=-8 ~\nQ239=+1.5 ~\nQ203=+0 ~\nQ204=+10\nL X+1 Y+2 FMAX M99";
     let moves = clean(tap);
-    let cuts: Vec<(f64, Option<f64>)> = moves.iter().filter(|m| !m.rapid).map(|m| (m.spindle, m.feed)).collect();
+    let cuts: Vec<(f64, Option<f64>)> =
+        moves.iter().filter(|m| !m.rapid).map(|m| (m.spindle, m.feed)).collect();
     assert_eq!(cuts, [(1000.0, Some(1500.0)), (-1000.0, Some(1500.0))]);
     let bore = "CYCL DEF 201 REAMING ~\nQ200=+2 ~\nQ201=-8 ~\nQ206=+100 ~\nQ211=+0 ~\nQ208=+50 ~\nQ203=+0 ~\nQ204=+10\nL X+1 Y+2 FMAX M99";
     assert_eq!(legs(bore)[1..], ["R 1 2 2", "F 1 2 -8", "F 1 2 2", "R 1 2 10"]);

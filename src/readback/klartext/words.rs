@@ -17,7 +17,8 @@ pub(super) enum Word {
 
 /// Addresses of motion blocks, longest first.
 const ADDRESSES: [&str; 21] = [
-    "IPA", "IPR", "PA", "PR", "IX", "IY", "IZ", "IA", "IB", "IC", "MB", "X", "Y", "Z", "A", "B", "C", "F", "S", "M", "R",
+    "IPA", "IPR", "PA", "PR", "IX", "IY", "IZ", "IA", "IB", "IC", "MB", "X", "Y", "Z", "A", "B", "C", "F",
+    "S", "M", "R",
 ];
 
 /// The words of a block without its number and comment; complaints go to `fault`.

@@ -197,7 +197,9 @@ impl Machine<'_> {
             );
         }
         let [first, second] = letters.map(|l| self.length(block, l));
-        if let Some(absolute) = block.words.as_ref().map(|w| w.absolute).filter(|a| a & (bit(letters[0]) | bit(letters[1])) != 0) {
+        if let Some(absolute) =
+            block.words.as_ref().map(|w| w.absolute).filter(|a| a & (bit(letters[0]) | bit(letters[1])) != 0)
+        {
             let place = |word: Option<f64>, letter: u8, from: f64| match word {
                 Some(value) if absolute & bit(letter) != 0 => value,
                 Some(value) => from + value,

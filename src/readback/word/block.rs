@@ -274,7 +274,13 @@ fn bad_number(letter: u8, error: NumberError, line: &[u8], at: usize) -> String 
     }
 }
 
-pub(super) fn store(letter: u8, value: Number, rules: &Rules, block: &mut Block, fault: &mut dyn FnMut(String)) {
+pub(super) fn store(
+    letter: u8,
+    value: Number,
+    rules: &Rules,
+    block: &mut Block,
+    fault: &mut dyn FnMut(String),
+) {
     if matches!(letter, b'G' | b'M') {
         return store_code(letter, value, block, fault);
     }

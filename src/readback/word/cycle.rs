@@ -241,7 +241,12 @@ impl Machine<'_> {
     }
 
     /// The hole under the tool; `feed_back` is the feed out of it, mm/min, where it is another.
-    pub(super) fn drill_down<S: Follow>(&mut self, hole: &Hole, feed_back: Option<f64>, out: &mut Out<'_, S>) {
+    pub(super) fn drill_down<S: Follow>(
+        &mut self,
+        hole: &Hole,
+        feed_back: Option<f64>,
+        out: &mut Out<'_, S>,
+    ) {
         self.vertical(hole.r, true, out);
         let direction = self.state.direction;
         match hole.kind {

@@ -20,7 +20,11 @@ pub(in crate::readback) struct Modal {
 
 impl Machine<'_> {
     /// Calls of the block; `true` when the block is over with them.
-    pub(in crate::readback::word) fn calls<S: Follow>(&mut self, block: &Block, out: &mut Out<'_, S>) -> bool {
+    pub(in crate::readback::word) fn calls<S: Follow>(
+        &mut self,
+        block: &Block,
+        out: &mut Out<'_, S>,
+    ) -> bool {
         let Some(words) = &block.words else { return false };
         let call = words.call.as_ref();
         match (words.modal_call, call) {
@@ -78,7 +82,8 @@ impl Machine<'_> {
         };
         // The safety clearance has no sign, nor has the depth relative to the surface.
         let r = surface + length(2).unwrap_or(0.0).abs();
-        let Some(z) = length(4).map(|d| surface - d.abs()).filter(|_| raw(4) != Some(0.0)).or(length(3)) else {
+        let Some(z) = length(4).map(|d| surface - d.abs()).filter(|_| raw(4) != Some(0.0)).or(length(3))
+        else {
             out.fault(format!("alarm 61101, {} without DP and DPR", call.name));
             return None;
         };
@@ -115,11 +120,19 @@ impl Machine<'_> {
     }
 
     /// First depth and its decrease. Only equal pecks are followed.
-    fn pecks_of<S: Follow>(&self, call: &Call, hole: &mut Hole, surface: f64, out: &mut Out<'_, S>) -> Option<()> {
+    fn pecks_of<S: Follow>(
+        &self,
+        call: &Call,
+        hole: &mut Hole,
+        surface: f64,
+        out: &mut Out<'_, S>,
+    ) -> Option<()> {
         let u = self.unit();
         let raw = |i: usize| call.arguments.get(i).copied().flatten();
         let first = raw(6).filter(|v| *v != 0.0).map(|v| v.abs() * u).or(raw(5).map(|v| surface - v * u));
-        let Some(first) = first.filter(|f| *f > 0.0 && (surface - hole.z) / f <= super::super::cycle::MOST_PECKS) else {
+        let Some(first) =
+            first.filter(|f| *f > 0.0 && (surface - hole.z) / f <= super::super::cycle::MOST_PECKS)
+        else {
             out.fault("alarm 61107, CYCLE83 without a first depth FDEP or FDPR");
             return None;
         };

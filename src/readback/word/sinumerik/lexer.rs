@@ -16,7 +16,12 @@ struct Lexer<'l, 'f> {
 }
 
 /// Cuts `line` into the words of `block`; complaints go to `fault`.
-pub(in crate::readback::word) fn read(line: &[u8], rules: &Rules, block: &mut Block, fault: &mut dyn FnMut(String)) {
+pub(in crate::readback::word) fn read(
+    line: &[u8],
+    rules: &Rules,
+    block: &mut Block,
+    fault: &mut dyn FnMut(String),
+) {
     block.clear();
     block.length = line.len();
     let trimmed = line.trim_ascii_start();
@@ -38,7 +43,11 @@ pub(in crate::readback::word) fn read(line: &[u8], rules: &Rules, block: &mut Bl
             }
             b'A'..=b'Z' | b'a'..=b'z' | b'$' | b'_' => lexer.word(rules, block),
             _ => {
-                let shown = if c.is_ascii_graphic() { format!("'{}'", char::from(c)) } else { format!("byte 0x{c:02X}") };
+                let shown = if c.is_ascii_graphic() {
+                    format!("'{}'", char::from(c))
+                } else {
+                    format!("byte 0x{c:02X}")
+                };
                 (lexer.fault)(format!("bad character {shown} in column {}", lexer.at + 1));
                 lexer.at += 1;
             }
@@ -74,10 +83,12 @@ impl Lexer<'_, '_> {
     /// A word that starts with a letter.
     fn word(&mut self, rules: &Rules, block: &mut Block) {
         let start = self.at;
-        let letters = self.line.get(start..).unwrap_or_default().iter().take_while(|c| c.is_ascii_alphabetic()).count();
+        let letters =
+            self.line.get(start..).unwrap_or_default().iter().take_while(|c| c.is_ascii_alphabetic()).count();
         let first = self.line.get(start).copied().unwrap_or_default().to_ascii_uppercase();
         let next = self.line.get(start + 1).copied();
-        let address = letters == 1 && matches!(next, Some(b'0'..=b'9' | b'+' | b'-' | b'.' | b'=' | b' ' | b'\t'));
+        let address =
+            letters == 1 && matches!(next, Some(b'0'..=b'9' | b'+' | b'-' | b'.' | b'=' | b' ' | b'\t'));
         if address {
             self.at += 1;
             return self.address(first, rules, block);
@@ -120,7 +131,10 @@ impl Lexer<'_, '_> {
         }
         let mode = if equals { self.coordinate_mode() } else { None };
         let Some(value) = self.number() else {
-            (self.fault)(format!("{name} in column {} is not followed by a number this reader can follow", self.at + 1));
+            (self.fault)(format!(
+                "{name} in column {} is not followed by a number this reader can follow",
+                self.at + 1
+            ));
             self.at = self.line.len();
             return;
         };
@@ -139,7 +153,8 @@ impl Lexer<'_, '_> {
     fn coordinate_mode(&mut self) -> Option<bool> {
         self.skip_blanks();
         let rest = self.line.get(self.at..).unwrap_or_default();
-        for (name, absolute) in [("AC(", true), ("IC(", false), ("DC(", true), ("ACP(", true), ("ACN(", true)] {
+        for (name, absolute) in [("AC(", true), ("IC(", false), ("DC(", true), ("ACP(", true), ("ACN(", true)]
+        {
             if rest.get(..name.len()).is_some_and(|start| start.eq_ignore_ascii_case(name.as_bytes())) {
                 self.at += name.len();
                 return Some(absolute);

@@ -4,8 +4,8 @@
 //! language (`SUPA`, `COMPCAD` …) stand among the G codes, from 1000 up.
 
 use super::codes::{G, Group, M, Mode, Plane};
-use super::rules::{Cycles, Dwell, FeedReset, Frame, Language, RotaryFeed, Rules};
 use super::controls::fanuc;
+use super::rules::{Cycles, Dwell, FeedReset, Frame, Language, RotaryFeed, Rules};
 use crate::readback::FeedMode;
 
 mod cycles;

@@ -3,7 +3,9 @@
 use super::*;
 
 fn program(body: &str) -> String {
-    format!("%_N_PART_MPF\nG17 G710 G90 G94 G40 G60 G54\nT1 M6\nD1\nG0 X10 Y0 Z5\nS1000 M3\nF100\n{body}\nM30\n")
+    format!(
+        "%_N_PART_MPF\nG17 G710 G90 G94 G40 G60 G54\nT1 M6\nD1\nG0 X10 Y0 Z5\nS1000 M3\nF100\n{body}\nM30\n"
+    )
 }
 
 fn run_it(text: &str) -> Trace {
@@ -38,12 +40,16 @@ fn words_with_and_without_equals() {
     assert_eq!(line(&moves[1]).1, Point2::new(13.5, 4.0));
     assert_eq!(line(&moves[2]).1, Point2::new(14.5, 5.0));
     assert!(close(line(&moves[3]).1.x, 12.5));
-    assert!(moves.iter().all(|m| m.length_offset && m.tool == 1 && m.path_tolerance == 0.0 && m.work_offset == 1));
+    assert!(
+        moves.iter().all(|m| m.length_offset && m.tool == 1 && m.path_tolerance == 0.0 && m.work_offset == 1)
+    );
 }
 
 #[test]
 fn arcs_by_offsets_radius_absolute_centre_and_turns() {
-    let moves = fine("G3 X0 Y10 I-10 J0\nG2 X10 Y0 CR=10\nG3 X0 Y10 CR=-10\nG2 X10 Y0 I=AC(0) J=AC(0)\nG3 X10 Y0 I-10 J0 Z-4 TURN=2\nG2 I-10");
+    let moves = fine(
+        "G3 X0 Y10 I-10 J0\nG2 X10 Y0 CR=10\nG3 X0 Y10 CR=-10\nG2 X10 Y0 I=AC(0) J=AC(0)\nG3 X10 Y0 I-10 J0 Z-4 TURN=2\nG2 I-10",
+    );
     assert!(close(arc(&moves[0]).1, PI / 2.0) && close(arc(&moves[1]).1, -PI / 2.0));
     assert!(close(arc(&moves[2]).1, 1.5 * PI));
     assert!(close(arc(&moves[3]).1, -PI / 2.0) && arc(&moves[3]).0.coords.norm() < 1e-12);
@@ -91,11 +97,17 @@ fn path_tolerance_is_what_was_asked_for() {
 
 #[test]
 fn modal_cycles_drill_at_every_position() {
-    let hole = ["R 1 2 5", "R 1 2 2", "F 1 2 -8", "D 0.5", "R 1 2 10", "R 4 2 10", "R 4 2 2", "F 4 2 -8", "D 0.5", "R 4 2 10", "R 7 2 10"];
+    let hole = [
+        "R 1 2 5", "R 1 2 2", "F 1 2 -8", "D 0.5", "R 1 2 10", "R 4 2 10", "R 4 2 2", "F 4 2 -8", "D 0.5",
+        "R 4 2 10", "R 7 2 10",
+    ];
     assert_eq!(legs("MCALL CYCLE82(10,0,2,-8,,0.5)\nG0 X1 Y2\nX4\nMCALL\nX7"), hole);
     assert_eq!(legs("MCALL CYCLE82(10,0,2,,8,0.5)\nG0 X1 Y2\nX4\nMCALL\nX7"), hole);
     let deep = "MCALL CYCLE83(10,0,2,-8,,,5,0,0.5,,1,1,,,,,0.5)\nG0 X1 Y2\nMCALL";
-    assert_eq!(legs(deep)[1..], ["R 1 2 2", "F 1 2 -5", "R 1 2 2", "R 1 2 -4.5", "F 1 2 -8", "D 0.5", "R 1 2 10"]);
+    assert_eq!(
+        legs(deep)[1..],
+        ["R 1 2 2", "F 1 2 -5", "R 1 2 2", "R 1 2 -4.5", "F 1 2 -8", "D 0.5", "R 1 2 10"]
+    );
     let chip = deep.replace(",1,1,,,,,0.5", ",1,0,,,0.25");
     assert_eq!(legs(&chip)[1..], ["R 1 2 2", "F 1 2 -5", "R 1 2 -4.75", "F 1 2 -8", "D 0.5", "R 1 2 10"]);
 }
@@ -103,7 +115,8 @@ fn modal_cycles_drill_at_every_position() {
 #[test]
 fn taps_and_bores_of_calls() {
     let moves = fine("MCALL CYCLE84(10,0,2,-8,,,3,,1.5,,400)\nG0 X1 Y2\nMCALL\nG1 X9");
-    let cuts: Vec<(f64, Option<f64>)> = moves.iter().filter(|m| !m.rapid).map(|m| (m.spindle, m.feed)).collect();
+    let cuts: Vec<(f64, Option<f64>)> =
+        moves.iter().filter(|m| !m.rapid).map(|m| (m.spindle, m.feed)).collect();
     assert_eq!(cuts, [(400.0, Some(600.0)), (-400.0, Some(600.0)), (1000.0, Some(100.0))]);
     let moves = fine("MCALL CYCLE85(10,0,2,-8,,,80,40)\nG0 X1 Y2\nMCALL");
     let feeds: Vec<Option<f64>> = moves.iter().filter(|m| !m.rapid).map(|m| m.feed).collect();
