@@ -27,16 +27,74 @@ pub(super) fn program(
     sink: &mut Sink,
 ) -> Option<TargetProgram> {
     let first = cl.records.first()?.origin;
-    let mut emitter = Emitter::new(cl, capabilities, sink, first);
+    let mut emitter = Emitter::new(cl, capabilities, sink, first, Tools::of(cl));
     emitter.event(BlockKind::Begin);
-    for (index, record) in cl.records.iter().enumerate() {
-        emitter.origin = record.origin;
-        emitter.of_record = u32::try_from(index).ok();
-        emitter.record(index, record, fitted);
-    }
+    emitter.records(fitted);
     emitter.of_record = None;
     emitter.event(BlockKind::End);
-    Some(emitter.finish())
+    Some(emitter.finish().0)
+}
+
+/// What one chunk of a program leaves to the next.
+#[derive(Debug)]
+pub(super) struct Carry {
+    tools: Tools,
+    at: [Option<i64>; 4],
+    stale: [i64; 4],
+    feed: Option<Feed>,
+    rpm: f64,
+    operation: u32,
+    told: usize,
+    cycle: Option<Active>,
+    exact: Option<Point3>,
+    spinning: Option<Spindle>,
+}
+
+/// Emits a chunk: the first one begins the program, the last one ends it.
+pub(super) fn chunk(
+    cl: &Cl,
+    capabilities: &Capabilities,
+    carry: Result<Carry, Tools>,
+    last: bool,
+    sink: &mut Sink,
+) -> (TargetProgram, Carry) {
+    let origin = cl.records.first().map(|r| r.origin).or_else(|| cl.origins.iter().next().map(|(h, _)| h));
+    let (tools, before) = match carry {
+        Ok(mut carry) => (core::mem::take(&mut carry.tools), Some(carry)),
+        Err(tools) => (tools, None),
+    };
+    let Some(origin) = origin else {
+        let carry = before.unwrap_or_else(|| Carry::empty(capabilities));
+        return (TargetProgram::empty(cl, capabilities, tools.list.clone()), Carry { tools, ..carry });
+    };
+    let mut emitter = Emitter::new(cl, capabilities, sink, origin, tools);
+    match before {
+        Some(carry) => emitter.resume(carry),
+        None => emitter.event(BlockKind::Begin),
+    }
+    emitter.records(&[]);
+    emitter.of_record = None;
+    if last {
+        emitter.event(BlockKind::End);
+    }
+    emitter.finish()
+}
+
+impl Carry {
+    fn empty(capabilities: &Capabilities) -> Carry {
+        Carry {
+            tools: Tools::default(),
+            at: [None, None, None, capabilities.rotary.is_none().then_some(0)],
+            stale: [0; 4],
+            feed: None,
+            rpm: 0.0,
+            operation: 0,
+            told: 0,
+            cycle: None,
+            exact: None,
+            spinning: None,
+        }
+    }
 }
 
 /// The largest number of messages about numbers that do not fit: one is enough for each statement.
@@ -61,6 +119,8 @@ pub(super) struct Emitter<'a> {
     coolant: Coolant,
     pub(super) operation: u32,
     complaints: Vec<(&'static str, Handle<Origin>)>,
+    /// Messages of the chunks before.
+    told: usize,
     pub(super) blocks: Vec<Block>,
     pub(super) pieces: Vec<Piece>,
     pub(super) nurbs: Vec<Nurbs>,
@@ -79,12 +139,13 @@ impl<'a> Emitter<'a> {
         capabilities: &'a Capabilities,
         sink: &'a mut Sink,
         origin: Handle<Origin>,
+        tools: Tools,
     ) -> Emitter<'a> {
         let mut emitter = Emitter {
             cl,
             capabilities,
             sink,
-            tools: Tools::of(cl),
+            tools,
             origin,
             of_record: None,
             piece: None,
@@ -95,6 +156,7 @@ impl<'a> Emitter<'a> {
             coolant: Coolant::Off,
             operation: 0,
             complaints: Vec::new(),
+            told: 0,
             blocks: Vec::new(),
             pieces: Vec::new(),
             nurbs: Vec::new(),
@@ -107,16 +169,51 @@ impl<'a> Emitter<'a> {
         emitter
     }
 
-    fn finish(self) -> TargetProgram {
-        TargetProgram {
+    /// Goes on where the chunk before ended.
+    fn resume(&mut self, carry: Carry) {
+        self.at = carry.at;
+        self.stale = carry.stale;
+        self.feed = carry.feed;
+        self.rpm = carry.rpm;
+        self.operation = carry.operation;
+        self.told = carry.told;
+        self.cycle = carry.cycle;
+        self.exact = carry.exact;
+        self.spinning = carry.spinning;
+    }
+
+    fn records(&mut self, fitted: &[Option<Arc<Fitted>>]) {
+        let cl = self.cl;
+        for (index, record) in cl.records.iter().enumerate() {
+            self.origin = record.origin;
+            self.of_record = u32::try_from(index).ok();
+            self.record(index, record, fitted);
+        }
+    }
+
+    fn finish(self) -> (TargetProgram, Carry) {
+        let program = TargetProgram {
             title: self.cl.title.clone(),
             capabilities: self.capabilities.clone(),
-            tools: self.tools.list,
+            tools: self.tools.list.clone(),
             pieces: self.pieces,
             nurbs: self.nurbs,
             cycles: self.cycles,
             blocks: self.blocks,
-        }
+        };
+        let carry = Carry {
+            tools: self.tools,
+            at: self.at,
+            stale: self.stale,
+            feed: self.feed,
+            rpm: self.rpm,
+            operation: self.operation,
+            told: self.told + self.complaints.len(),
+            cycle: self.cycle,
+            exact: self.exact,
+            spinning: self.spinning,
+        };
+        (program, carry)
     }
 
     /// Positions are unknown; a machine without a rotary axis has it at 0 for ever.
@@ -133,7 +230,7 @@ impl<'a> Emitter<'a> {
     /// One message a code and statement.
     pub(super) fn complain(&mut self, code: &'static Code, message: String) {
         let key = (code.id, self.origin);
-        if !self.complaints.contains(&key) && self.complaints.len() < MAX_COMPLAINTS {
+        if !self.complaints.contains(&key) && self.told + self.complaints.len() < MAX_COMPLAINTS {
             self.complaints.push(key);
             self.sink.push(at_origin(code, &self.cl.origins, self.origin, message));
         }
@@ -142,7 +239,7 @@ impl<'a> Emitter<'a> {
     pub(super) fn feed_trouble(&mut self, trouble: &FeedTrouble) -> FeedWord {
         let diagnostic = trouble.diagnostic(&self.cl.origins, self.origin);
         let key = (diagnostic.code.id, self.origin);
-        if !self.complaints.contains(&key) && self.complaints.len() < MAX_COMPLAINTS {
+        if !self.complaints.contains(&key) && self.told + self.complaints.len() < MAX_COMPLAINTS {
             self.complaints.push(key);
             self.sink.push(diagnostic);
         }

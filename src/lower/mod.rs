@@ -23,6 +23,7 @@ mod lead;
 mod path;
 pub mod place;
 mod rotary;
+pub mod stream;
 #[cfg(test)]
 mod tests;
 mod tools;

@@ -1,6 +1,6 @@
 //! Tool numbers.
 
-use crate::arena::Handle;
+use crate::arena::{Arena, Handle};
 use crate::cl::{Cl, RecordKind};
 use crate::ir::Tool;
 
@@ -14,13 +14,20 @@ pub(super) struct Tools {
 impl Tools {
     /// Tools without a number of their own get the smallest that nobody has.
     pub fn of(cl: &Cl) -> Tools {
+        let loads = cl.records.iter().filter_map(|record| match record.kind {
+            RecordKind::LoadTool(handle) => Some(handle),
+            _ => None,
+        });
+        Tools::of_loads(loads, &cl.tools)
+    }
+
+    /// The same, from the tool changes in order.
+    pub fn of_loads(loads: impl Iterator<Item = Handle<Tool>>, arena: &Arena<Tool>) -> Tools {
         let mut tools = Tools::default();
-        for record in &cl.records {
-            if let RecordKind::LoadTool(handle) = record.kind
-                && !tools.handles.contains(&handle)
-            {
+        for handle in loads {
+            if !tools.handles.contains(&handle) {
                 tools.handles.push(handle);
-                tools.list.push(cl.tools[handle].clone());
+                tools.list.push(arena[handle].clone());
             }
         }
         let mut next = 1;

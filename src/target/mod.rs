@@ -229,6 +229,22 @@ pub struct TargetProgram {
     pub blocks: Vec<Block>,
 }
 
+impl TargetProgram {
+    /// A program without blocks.
+    #[must_use]
+    pub fn empty(cl: &crate::cl::Cl, capabilities: &Capabilities, tools: Vec<Tool>) -> TargetProgram {
+        TargetProgram {
+            title: cl.title.clone(),
+            capabilities: capabilities.clone(),
+            tools,
+            pieces: Vec::new(),
+            nurbs: Vec::new(),
+            cycles: Vec::new(),
+            blocks: Vec::new(),
+        }
+    }
+}
+
 /// One block or event, with its provenance.
 #[derive(Debug, Clone)]
 pub struct Block {
