@@ -249,8 +249,9 @@ impl Reader<'_> {
         let Some(p) = self.point([x, y, z]) else { return };
         self.begin_operation();
         self.flush_tool();
+        // It is approached at rapid.
         self.emit(RecordKind::From(p));
-        self.state.sure = false;
+        self.state.sure = true;
         self.state.from = Some(p);
         self.state.at = Some(p);
         self.state.moved = true;

@@ -43,6 +43,9 @@ pub struct Reader<'t> {
     pub(super) missing: Vec<&'static str>,
     sink: Sink,
     over: bool,
+    /// Tools and operations of the chunks before.
+    known: (usize, usize),
+    pub(super) places: Vec<Span>,
 }
 
 /// Points whose tool axis is off Z.
@@ -81,6 +84,8 @@ impl<'t> Reader<'t> {
             missing: Vec::new(),
             sink: Sink::default(),
             over: false,
+            known: (0, 0),
+            places: Vec::new(),
         };
         reader.defines(&options.defines);
         reader
@@ -105,7 +110,7 @@ impl<'t> Reader<'t> {
             return None;
         }
         self.records.reserve(records.min(1 << 20));
-        while self.records.len() < records && !self.state.ended {
+        while !self.state.ended && (self.records.len() < records || !self.between_moves()) {
             let Some((line, start)) = self.lines.line() else {
                 self.state.ended = true;
                 break;
@@ -116,14 +121,56 @@ impl<'t> Reader<'t> {
             self.finish();
         }
         self.over = self.state.ended;
-        Some(Cl {
+        let mut cl = Cl {
             title: self.title.clone(),
             units: self.units,
-            tools: self.tools.clone(),
+            tools: Arena::default(),
             origins: core::mem::take(&mut self.origins),
             operations: self.operations.clone(),
             records: core::mem::take(&mut self.records),
-        })
+        };
+        self.of_chunk(&mut cl);
+        Some(cl)
+    }
+
+    /// A chunk ends between two moves, so that what belongs together stays together.
+    fn between_moves(&self) -> bool {
+        let straight = |r: &Record| matches!(r.kind, RecordKind::Linear(_) | RecordKind::Rapid(_));
+        self.records.last().is_some_and(straight)
+            && self.state.cycle.is_none()
+            && self.state.circle.is_none()
+            && self.state.nurbs.is_none()
+    }
+
+    /// Tools and operations of earlier chunks get an origin of this one: theirs are gone.
+    fn of_chunk(&mut self, cl: &mut Cl) {
+        let first = cl.origins.iter().next().map(|(handle, _)| handle);
+        let any = match first {
+            Some(handle) => handle,
+            None => cl.origins.push(Origin { span: Span::new(self.file, 0, 0), calls: Vec::new() }),
+        };
+        let (tools, operations) = self.known;
+        for (index, operation) in cl.operations.iter_mut().enumerate() {
+            operation.origin = if index < operations { any } else { operation.origin };
+        }
+        for (index, (_, tool)) in self.tools.iter().enumerate() {
+            let mut tool = tool.clone();
+            tool.origin = if index < tools { any } else { tool.origin };
+            cl.tools.push(tool);
+        }
+        self.known = (self.tools.len(), self.operations.len());
+    }
+
+    /// Where the operations stand in the file, in order.
+    #[must_use]
+    pub fn operation_places(&self) -> &[Span] {
+        &self.places
+    }
+
+    /// Whether the last chunk was the last.
+    #[must_use]
+    pub fn is_over(&self) -> bool {
+        self.over
     }
 
     /// The whole file at once.

@@ -195,6 +195,7 @@ impl Reader<'_> {
             guard,
             effort: None,
         });
+        self.places.push(self.span);
         self.state.operation = Some(index);
         self.emit(RecordKind::BeginOperation(index));
     }

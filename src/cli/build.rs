@@ -51,6 +51,7 @@ fn build_with(
     options.posts.clone_from(&args.post);
     options.post_set = args.overrides.pairs()?;
     options.keep_ast = args.emit.contains(&Stage::Ast);
+    options.only_nc = args.emit.iter().all(|s| *s == Stage::Nc);
     options.check_only = !args.emit.iter().any(|s| matches!(s, Stage::Target | Stage::Nc));
     let compiled = compile(&args.files, &options, &args.common, messages)?;
     let status = show(&compiled, messages);

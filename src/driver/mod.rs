@@ -15,6 +15,7 @@ use crate::units::LengthUnit;
 use crate::verify::Proven;
 use crate::{clfile, ir, plan, sema};
 
+mod parts;
 mod targets;
 
 /// What to build.
@@ -32,6 +33,8 @@ pub struct Options {
     pub cl: clfile::Options,
     /// The file is a CL file, whatever it is called and whatever stands in it.
     pub is_cl: bool,
+    /// Only the NC programs are wanted: a CL file is built in parts, and no other stage is kept.
+    pub only_nc: bool,
     /// Stop before lowering: all checks of the program, no output.
     pub check_only: bool,
     /// What stands behind column 72 of a line is no part of the program (`--card-columns`).
@@ -140,6 +143,11 @@ fn cl_stages(
 ) {
     let source = build.sources.file(file);
     let (name, text) = (source.name.clone(), source.text.clone());
+    if options.only_nc && !options.check_only {
+        let cl_file = parts::ClFile { file, name: &name, text: &text, how };
+        build.outputs = parts::make(&cl_file, options, files, &mut build.sources, sink);
+        return;
+    }
     let (cl, messages) = clfile::Reader::new(file, &name, &text, how).whole();
     let failed = messages.has_errors();
     sink.append(messages);

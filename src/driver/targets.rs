@@ -13,6 +13,7 @@ use crate::ir::{Machine, Origin};
 use crate::post::{self, Dialect};
 use crate::source::{FileProvider, SourceMap};
 use crate::target::{Capabilities, TargetProgram};
+use crate::units::LengthUnit;
 use crate::verify::{self, Emitted, Place, Proven};
 use crate::{lower, target};
 
@@ -54,9 +55,22 @@ fn short_name(name: &str) -> String {
 }
 
 /// A post with what its control can do.
-struct Ready {
-    dialect: Dialect,
-    capabilities: Capabilities,
+pub(super) struct Ready {
+    pub dialect: Dialect,
+    pub capabilities: Capabilities,
+}
+
+impl Ready {
+    /// The output of this post, without a program.
+    pub fn output(&self, units: LengthUnit) -> Output {
+        Output {
+            post: short_name(self.dialect.name()),
+            extension: self.dialect.extension().to_owned(),
+            units,
+            target: None,
+            proven: None,
+        }
+    }
 }
 
 /// Makes the program of every wanted post.
@@ -86,7 +100,7 @@ pub(super) fn make(
         .collect()
 }
 
-fn prepare(
+pub(super) fn prepare(
     cl: &Cl,
     wanted: &Wanted<'_>,
     options: &Options,
@@ -122,14 +136,7 @@ fn one(cl: &Cl, ready: &Ready, sources: &SourceMap) -> (Output, Sink) {
     let mut sink = Sink::default();
     let target = lower::lower(cl, &ready.capabilities, &mut sink);
     let proven = target.as_ref().and_then(|t| prove(cl, ready, t, sources, &mut sink));
-    let output = Output {
-        post: short_name(ready.dialect.name()),
-        extension: ready.dialect.extension().to_owned(),
-        units: cl.units,
-        target,
-        proven,
-    };
-    (output, sink)
+    (Output { target, proven, ..ready.output(cl.units) }, sink)
 }
 
 fn prove(
@@ -142,12 +149,17 @@ fn prove(
     let emitted = written(&ready.dialect, target, &cl.origins, sink)?;
     let mut proven =
         verify::prove(cl, target, emitted, ready.dialect.control_with(&ready.capabilities.options), sink)?;
+    locate(&mut proven, sources);
+    Some(proven)
+}
+
+/// Says in the certificate where the operations stand.
+pub(super) fn locate(proven: &mut Proven, sources: &SourceMap) {
     proven.locate(|span| {
         let file = sources.file(span.file);
         let (line, column) = file.line_column(span.start);
         Place { file: file.name.clone(), line, column }
     });
-    Some(proven)
 }
 
 fn written(

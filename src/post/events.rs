@@ -9,12 +9,25 @@ use super::number;
 use super::pattern::Item;
 use super::table::{PER_MINUTE, WordFormat, word};
 use super::template::Renderer;
-use super::writer::{ModalState, Writer};
+use super::writer::{ModalState, Writer, WriterCarry};
 use crate::arena::Arena;
 use crate::diag::{Code, Diagnostic, codes};
 use crate::ir::{Coolant, Origin, Spindle};
 use crate::target::{BlockKind, Capabilities, TargetProgram};
 use crate::units::LengthUnit;
+
+/// What one part of a program leaves to the next.
+#[derive(Debug, Clone)]
+pub(super) struct Carry {
+    writer: WriterCarry,
+    tool: Option<u32>,
+    first_operation: bool,
+    tool_changes: usize,
+    spindle_on: bool,
+    coolant_on: bool,
+    speed: i64,
+    said_speed: Option<i64>,
+}
 
 /// The writer with what templates need.
 pub(super) struct Events<'a> {
@@ -65,6 +78,32 @@ impl<'a> Events<'a> {
             said_speed: None,
             cycle: None,
         }
+    }
+
+    /// What the next part of the program must know.
+    pub fn carry(&self) -> Carry {
+        Carry {
+            writer: self.writer.carry(),
+            tool: self.tool,
+            first_operation: self.first_operation,
+            speed: self.speed,
+            said_speed: self.said_speed,
+            tool_changes: self.tool_changes,
+            spindle_on: self.spindle_on,
+            coolant_on: self.coolant_on,
+        }
+    }
+
+    /// Goes on where the part before ended.
+    pub fn resume(&mut self, carry: Carry) {
+        self.writer.resume(carry.writer);
+        self.tool = carry.tool;
+        self.first_operation = carry.first_operation;
+        self.speed = carry.speed;
+        self.said_speed = carry.said_speed;
+        self.tool_changes = carry.tool_changes;
+        self.spindle_on = carry.spindle_on;
+        self.coolant_on = carry.coolant_on;
     }
 
     pub fn into_writer(self) -> Writer<'a> {

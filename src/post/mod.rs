@@ -40,4 +40,4 @@ pub use inspect::{Place, Setting};
 pub use json_schema::json_schema;
 pub use lint::lint;
 pub use load::{builtin_names, builtin_text, load, load_with};
-pub use write::{Written, write};
+pub use write::{Parts, Written, write};

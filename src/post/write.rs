@@ -7,7 +7,7 @@ use crate::ir::Origin;
 use crate::target::{Block, BlockKind, TargetProgram};
 
 use super::dialect::Dialect;
-use super::events::Events;
+use super::events::{Carry, Events};
 use super::table::MotionTable;
 use super::writer::{LineFault, Writer};
 
@@ -34,13 +34,55 @@ pub fn write(
     program: &TargetProgram,
     origins: &Arena<Origin>,
 ) -> Result<Written, Vec<Diagnostic>> {
+    Parts::new(dialect).part(program, origins)
+}
+
+/// Writes a program part by part.
+#[derive(Debug)]
+pub struct Parts<'d> {
+    dialect: &'d Dialect,
+    carry: Option<Carry>,
+}
+
+impl<'d> Parts<'d> {
+    /// Nothing is written yet.
+    #[must_use]
+    pub fn new(dialect: &'d Dialect) -> Parts<'d> {
+        Parts { dialect, carry: None }
+    }
+
+    /// The text of the next part; lines are counted from the start of the program.
+    ///
+    /// # Errors
+    /// As [`write`].
+    pub fn part(
+        &mut self,
+        program: &TargetProgram,
+        origins: &Arena<Origin>,
+    ) -> Result<Written, Vec<Diagnostic>> {
+        let (written, carry) = part(self.dialect, program, origins, self.carry.take())?;
+        self.carry = carry;
+        Ok(written)
+    }
+}
+
+fn part(
+    dialect: &Dialect,
+    program: &TargetProgram,
+    origins: &Arena<Origin>,
+    before: Option<Carry>,
+) -> Result<(Written, Option<Carry>), Vec<Diagnostic>> {
     let Some(first) = program.blocks.first() else {
-        return Ok(Written { text: String::new(), lines: Vec::new() });
+        return Ok((Written { text: String::new(), lines: Vec::new() }, before));
     };
     let table = MotionTable::new(dialect, &program.capabilities);
     let writer = Writer::new(dialect, table, first.origin, program.blocks.len() * BYTES_PER_BLOCK + 1024);
     let mut events = Events::new(writer, program, origins);
+    if let Some(before) = before {
+        events.resume(before);
+    }
     let lines = program.blocks.iter().enumerate().map(|(index, block)| events.block(index, block)).collect();
+    let carry = events.carry();
     let mut writer = events.into_writer();
     let faults = core::mem::take(&mut writer.faults);
     writer.errors.extend(faults.iter().map(|fault| too_long(dialect, fault, origins)));
@@ -50,7 +92,7 @@ pub fn write(
     // Prefixes, texts and numbers are all ASCII.
     let text = String::from_utf8(writer.out)
         .unwrap_or_else(|error| String::from_utf8_lossy(error.as_bytes()).into_owned());
-    Ok(Written { text, lines })
+    Ok((Written { text, lines }, Some(carry)))
 }
 
 impl Events<'_> {

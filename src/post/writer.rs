@@ -28,6 +28,18 @@ pub(super) struct ModalState {
     pub path: Option<Option<i64>>,
 }
 
+/// What one part of a program leaves to the next.
+#[derive(Debug, Clone)]
+pub(super) struct WriterCarry {
+    state: ModalState,
+    position: Position,
+    with_first_z: Vec<u8>,
+    line: u32,
+    next_number: u32,
+    last_number: u32,
+    continued: bool,
+}
+
 /// A line that the control would not take.
 #[derive(Debug, Clone)]
 pub(super) struct LineFault {
@@ -90,6 +102,30 @@ impl<'a> Writer<'a> {
             faults: Vec::new(),
             errors: Vec::new(),
         }
+    }
+
+    /// What the next part of the program must know.
+    pub fn carry(&self) -> WriterCarry {
+        WriterCarry {
+            state: self.state.clone(),
+            position: self.position,
+            with_first_z: self.with_first_z.clone(),
+            line: self.line,
+            next_number: self.next_number,
+            last_number: self.last_number,
+            continued: self.continued,
+        }
+    }
+
+    /// Goes on where the part before ended.
+    pub fn resume(&mut self, carry: WriterCarry) {
+        self.state = carry.state;
+        self.position = carry.position;
+        self.with_first_z = carry.with_first_z;
+        self.line = carry.line;
+        self.next_number = carry.next_number;
+        self.last_number = carry.last_number;
+        self.continued = carry.continued;
     }
 
     /// Starts a line: its number, if it gets one.

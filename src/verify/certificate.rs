@@ -150,6 +150,24 @@ impl Deviation {
     }
 }
 
+impl OperationProof {
+    /// An operation of points: nothing is measured against an exact curve.
+    #[must_use]
+    pub fn unmeasured(operation: &crate::cl::Operation, span: Option<Span>) -> OperationProof {
+        OperationProof {
+            name: operation.name.clone(),
+            kind: operation.kind,
+            span,
+            source: None,
+            tolerance: operation.band,
+            into: None,
+            out: None,
+            blocks: 0,
+            pieces: Vec::new(),
+        }
+    }
+}
+
 impl Certificate {
     /// Fills in [`OperationProof::source`].
     pub fn locate(&mut self, place: impl Fn(Span) -> Place) {

@@ -31,8 +31,13 @@ pub(super) fn certificate(
 }
 
 fn digest(text: &str) -> String {
-    let mut hex = String::with_capacity(64);
-    for byte in Sha256::digest(text.as_bytes()) {
+    hexadecimal(&Sha256::digest(text.as_bytes()))
+}
+
+/// Bytes as hexadecimal digits.
+pub(super) fn hexadecimal(bytes: &[u8]) -> String {
+    let mut hex = String::with_capacity(2 * bytes.len());
+    for byte in bytes {
         for nibble in [byte >> 4, byte & 15] {
             hex.push(char::from_digit(u32::from(nibble), 16).unwrap_or('0'));
         }
@@ -42,6 +47,12 @@ fn digest(text: &str) -> String {
 
 fn moves(case: &Case<'_>) -> Moves {
     let mut moves = Moves::default();
+    count_moves(case, &mut moves);
+    moves
+}
+
+/// Adds the moves by kind.
+pub(super) fn count_moves(case: &Case<'_>, moves: &mut Moves) {
     for placed in case.moves {
         let counter = match (&placed.cut.path, placed.cut.rapid) {
             (_, true) => &mut moves.rapids,
@@ -52,11 +63,16 @@ fn moves(case: &Case<'_>) -> Moves {
         };
         *counter += 1;
     }
-    moves
 }
 
 fn time(case: &Case<'_>, trace: &Trace) -> Time {
     let mut time = Time { model: TIME_MODEL, ..Time::default() };
+    add_time(case, trace, &mut time);
+    time
+}
+
+/// Adds the time of the moves and dwells.
+pub(super) fn add_time(case: &Case<'_>, trace: &Trace, time: &mut Time) {
     for placed in case.moves {
         let length = placed.cut.length();
         match placed.cut.feed {
@@ -70,7 +86,6 @@ fn time(case: &Case<'_>, trace: &Trace) -> Time {
             time.dwell += seconds;
         }
     }
-    time
 }
 
 fn operations(case: &Case<'_>, proofs: Vec<Proof>) -> Vec<OperationProof> {
@@ -78,17 +93,7 @@ fn operations(case: &Case<'_>, proofs: Vec<Proof>) -> Vec<OperationProof> {
         .cl
         .operations
         .iter()
-        .map(|o| OperationProof {
-            name: o.name.clone(),
-            kind: o.kind,
-            span: Some(case.cl.origins[o.origin].span),
-            source: None,
-            tolerance: o.band,
-            into: None,
-            out: None,
-            blocks: 0,
-            pieces: Vec::new(),
-        })
+        .map(|o| OperationProof::unmeasured(o, Some(case.cl.origins[o.origin].span)))
         .collect();
     for Proof { operation, proof } in proofs {
         let Some(of) = operations.get_mut(operation) else { continue };

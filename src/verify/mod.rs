@@ -48,6 +48,7 @@ mod program_tests;
 mod rail;
 mod spline;
 mod state;
+pub mod stream;
 #[cfg(test)]
 mod tests;
 mod tree;
@@ -222,7 +223,7 @@ fn judge(
         happenings: &happenings,
         spans: &spans,
     };
-    let (findings, operations) = check(&case, &trace, plan.lines, &emitted.lines);
+    let (findings, operations) = check(&case, &trace, plan.lines, &emitted.lines, None);
     let certificate = issue::certificate(&case, &trace, emitted, control, operations);
     Ok(Judged { findings, certificate })
 }
@@ -309,6 +310,7 @@ fn check(
     trace: &Trace,
     lines: &Lines,
     block_lines: &[(u32, u32)],
+    before: Option<crate::geom::Point3>,
 ) -> (Vec<Finding>, Vec<pieces::Proof>) {
     let rails = guard::Rails::new(case);
     let (mut findings, proofs) = pieces::all(case, &rails);
@@ -326,7 +328,7 @@ fn check(
         .collect();
     findings.extend(others);
     findings.extend(points::block_ends(case, block_lines));
-    findings.extend(points::cl_points(case));
+    findings.extend(points::cl_points(case, before));
     findings.extend(holes::all(case));
     findings.extend(circles::all(case));
     findings.extend(events::all(case));

@@ -19,6 +19,22 @@ pub(super) struct Asked {
     pub coolant: (bool, bool),
 }
 
+/// What a part of a program leaves in force for the next.
+#[derive(Debug, Clone)]
+pub(super) struct InForce {
+    asked: Asked,
+    operation: Option<usize>,
+    feed: Feed,
+    /// Feeds of the operation so far.
+    feeds: Vec<f64>,
+}
+
+impl Default for InForce {
+    fn default() -> Self {
+        InForce { asked: Asked::default(), operation: None, feed: Feed::PerMinute(0.0), feeds: Vec::new() }
+    }
+}
+
 /// Where a block stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Context {
@@ -35,21 +51,25 @@ impl Context {
 
 /// Context of every block.
 pub(super) fn contexts(target: &TargetProgram) -> Vec<Context> {
-    let mut now = Context::START;
-    let mut begun = 0;
+    contexts_from(target, &mut (Context::START, 0))
+}
+
+/// The same for a part of a program, where `before` is the context before it and the number of operations begun.
+pub(super) fn contexts_from(target: &TargetProgram, before: &mut (Context, usize)) -> Vec<Context> {
+    let (now, begun) = before;
     target
         .blocks
         .iter()
         .map(|block| {
             match &block.kind {
                 BlockKind::BeginOperation(_) => {
-                    now.operation = Some(begun);
-                    begun += 1;
+                    now.operation = Some(*begun);
+                    *begun += 1;
                 }
                 BlockKind::ToolChange(tool) => now.tool = Some(*tool),
                 _ => {}
             }
-            now
+            *now
         })
         .collect()
 }
@@ -115,34 +135,51 @@ pub(super) struct Orders {
 
 impl Orders {
     pub(super) fn new(cl: &Cl) -> Self {
+        Orders::after(cl, &mut InForce::default())
+    }
+
+    /// The same for a part of a program, before which this was in force.
+    pub(super) fn after(cl: &Cl, before: &mut InForce) -> Self {
         let mut orders = Orders::default();
-        let mut asked = Asked::default();
-        let mut operation = None;
-        let mut feed = Feed::PerMinute(0.0);
+        let InForce { asked, operation, feed, feeds } = before;
+        if operation.is_some() {
+            orders.feeds.insert(*operation, core::mem::take(feeds));
+        }
+        let mut orders = orders.with(cl, asked, operation, feed);
+        *feeds = orders.feeds.get(operation).cloned().unwrap_or_default();
+        orders.feeds.retain(|_, f| !f.is_empty());
+        orders
+    }
+
+    fn with(mut self, cl: &Cl, asked: &mut Asked, operation: &mut Option<usize>, feed: &mut Feed) -> Self {
+        let orders = &mut self;
         for record in &cl.records {
             match &record.kind {
-                RecordKind::BeginOperation(index) => operation = Some(*index as usize),
+                RecordKind::BeginOperation(index) => *operation = Some(*index as usize),
                 RecordKind::Spindle(spindle) => asked.spindle = signed(*spindle),
                 RecordKind::Coolant(c) => asked.coolant = (*c == Coolant::Flood, *c == Coolant::Mist),
-                RecordKind::Feed(f) => feed = *f,
+                RecordKind::Feed(f) => *feed = *f,
                 RecordKind::BeginCycle(cycle) => {
                     let into = per_minute(cycle.feed, asked.spindle);
-                    orders.feeds.entry(operation).or_default().extend((into > 0.0).then_some(into));
+                    orders.feeds.entry(*operation).or_default().extend((into > 0.0).then_some(into));
                 }
                 RecordKind::Contour(contour) => {
-                    orders.feeds.entry(operation).or_default().extend(contour.plunge_feed);
-                    orders.plunges.entry(operation).or_default().push(contour.plunge_feed);
+                    orders.feeds.entry(*operation).or_default().extend(contour.plunge_feed);
+                    orders.plunges.entry(*operation).or_default().push(contour.plunge_feed);
                 }
                 _ => {}
             }
-            asked.feed = per_minute(feed, asked.spindle);
-            orders.records.push(asked);
-            let feeds = orders.feeds.entry(operation).or_default();
+            asked.feed = per_minute(*feed, asked.spindle);
+            orders.records.push(*asked);
+            if matches!(record.kind, RecordKind::Linear(_) | RecordKind::Rapid(_)) {
+                continue;
+            }
+            let feeds = orders.feeds.entry(*operation).or_default();
             if feeds.last() != Some(&asked.feed) && asked.feed > 0.0 {
                 feeds.push(asked.feed);
             }
         }
-        orders
+        self
     }
 
     /// What was in force at the CL record with this index.

@@ -276,7 +276,9 @@ fn in_part(case: &Case<'_>, p: Position) -> Point3 {
 }
 
 /// The points of the CL data (`GOTO`, rapid or at feed) are reached in their order, contours apart.
-pub(super) fn cl_points(case: &Case<'_>) -> Vec<Finding> {
+///
+/// `before` is where the tool was before the first of them, in a part of a program.
+pub(super) fn cl_points(case: &Case<'_>, before: Option<Point3>) -> Vec<Finding> {
     let most = 0.5 * case.target.capabilities.grid.linear_step() * 3.0_f64.sqrt() + ACCURACY;
     let mut at = 0;
     let mut depth = 0.0;
@@ -297,7 +299,9 @@ pub(super) fn cl_points(case: &Case<'_>) -> Vec<Finding> {
         let here = at
             .checked_sub(1)
             .and_then(|i| case.moves.get(i))
-            .is_some_and(|p| (p.cut.end() - point).norm() <= most);
+            .map(|p| p.cut.end())
+            .or(before.filter(|_| at == 0))
+            .is_some_and(|p| (p - point).norm() <= most);
         if here {
             continue;
         }

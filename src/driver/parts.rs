@@ -1,0 +1,197 @@
+//! CL files to proven programs in parts, so that memory does not grow with their length beyond the texts themselves.
+//!
+//! The file is read twice: once for what a program says at its start (its tools) and for all messages, then part by part
+//! through lowering, writing and proof. Writing runs ahead of the proof by a few parts at most; parts keep their order.
+
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+
+use super::targets::{self, Ready};
+use super::{Options, Output};
+use crate::arena::Handle;
+use crate::cl::{Cl, RecordKind};
+use crate::clfile::{self, Reader};
+use crate::diag::Sink;
+use crate::ir::Tool;
+use crate::lower::stream::Stream as Lowering;
+use crate::post::Parts;
+use crate::readback::MachineSetup;
+use crate::source::{FileId, FileProvider, SourceMap, Span};
+use crate::target::TargetProgram;
+use crate::verify::stream::{self, Stream as Proof};
+use crate::verify::{Emitted, OperationProof, Proven};
+
+/// Records of one part.
+const PART: usize = 1 << 14;
+/// Parts that writing may be ahead of the proof.
+const AHEAD: usize = 2;
+
+/// A CL file and how it is to be read.
+pub(super) struct ClFile<'a> {
+    pub file: FileId,
+    pub name: &'a str,
+    pub text: &'a str,
+    pub how: &'a clfile::Options,
+}
+
+impl<'a> ClFile<'a> {
+    fn reader(&self) -> Reader<'a> {
+        Reader::new(self.file, self.name, self.text, self.how)
+    }
+}
+
+/// What the first reading finds.
+struct Survey {
+    /// The last chunk, with the tools and operations of the whole file and no records.
+    cl: Cl,
+    loads: Vec<Handle<Tool>>,
+    places: Vec<Span>,
+}
+
+/// The programs of all wanted posts.
+pub(super) fn make(
+    file: &ClFile<'_>,
+    options: &Options,
+    files: &dyn FileProvider,
+    sources: &mut SourceMap,
+    sink: &mut Sink,
+) -> Vec<Output> {
+    let survey = survey(file, sink);
+    if sink.has_errors() {
+        targets::check(options, files, sources, sink);
+        return Vec::new();
+    }
+    let wanted = targets::wanted(options, &[], sink);
+    let ready: Vec<Ready> = wanted
+        .iter()
+        .filter_map(|w| targets::prepare(&survey.cl, w, options, files, sources, sink))
+        .collect();
+    if sink.has_errors() {
+        return Vec::new();
+    }
+    let sources = &*sources;
+    ready
+        .iter()
+        .map(|ready| {
+            let mut output = ready.output(survey.cl.units);
+            output.proven = one(file, &survey, ready, sink);
+            if let Some(proven) = &mut output.proven {
+                targets::locate(proven, sources);
+            }
+            output
+        })
+        .collect()
+}
+
+fn survey(file: &ClFile<'_>, sink: &mut Sink) -> Survey {
+    let mut reader = file.reader();
+    let mut survey = Survey { cl: Cl::default(), loads: Vec::new(), places: Vec::new() };
+    while let Some(mut cl) = reader.chunk(PART) {
+        for record in cl.records.drain(..) {
+            if let RecordKind::LoadTool(tool) = record.kind
+                && !survey.loads.contains(&tool)
+            {
+                survey.loads.push(tool);
+            }
+        }
+        survey.cl = cl;
+    }
+    survey.places = reader.operation_places().to_vec();
+    sink.append(reader.messages());
+    survey
+}
+
+/// A written part on its way to the proof.
+struct Part {
+    cl: Cl,
+    target: TargetProgram,
+    emitted: Emitted,
+    last: bool,
+}
+
+/// One program: written on this thread, proven on another.
+fn one(file: &ClFile<'_>, survey: &Survey, ready: &Ready, sink: &mut Sink) -> Option<Proven> {
+    let loads = survey.loads.as_slice();
+    let mut lowering = Lowering::new(ready.capabilities.clone(), loads, &survey.cl.tools);
+    // The machine is the same for all parts; a program without blocks tells it.
+    let setup = stream::setup(&lowering.chunk(&Cl::default(), false, &mut Sink::default()));
+    let mut lowering = Lowering::new(ready.capabilities.clone(), loads, &survey.cl.tools);
+    let setup = &setup;
+    let (sender, receiver) = sync_channel(AHEAD);
+    std::thread::scope(|scope| {
+        let proof = scope.spawn(move || prove(receiver, survey, ready, setup));
+        let written = write(file, survey, ready, &mut lowering, &sender, sink);
+        drop(sender);
+        // A panic of the proof is our own fault and goes on.
+        let (proven, messages) = proof.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+        sink.append(messages);
+        proven.filter(|_| written)
+    })
+}
+
+/// Whether all of it could be written.
+fn write(
+    file: &ClFile<'_>,
+    survey: &Survey,
+    ready: &Ready,
+    lowering: &mut Lowering,
+    sender: &SyncSender<Part>,
+    sink: &mut Sink,
+) -> bool {
+    let mut reader = file.reader();
+    let mut parts = Parts::new(&ready.dialect);
+    while let Some(mut cl) = reader.chunk(PART) {
+        let last = reader.is_over();
+        cl.title.clone_from(&survey.cl.title);
+        let mut messages = Sink::default();
+        let target = lowering.chunk(&cl, last, &mut messages);
+        let failed = messages.has_errors();
+        sink.append(messages);
+        if failed {
+            return false;
+        }
+        let emitted = match parts.part(&target, &cl.origins) {
+            Ok(written) => Emitted { text: written.text, lines: written.lines },
+            Err(errors) => {
+                errors.into_iter().for_each(|e| sink.push(e));
+                return false;
+            }
+        };
+        // The proof has failed when nobody listens; its messages say why.
+        if sender.send(Part { cl, target, emitted, last }).is_err() {
+            return false;
+        }
+    }
+    true
+}
+
+fn prove(
+    receiver: Receiver<Part>,
+    survey: &Survey,
+    ready: &Ready,
+    setup: &MachineSetup,
+) -> (Option<Proven>, Sink) {
+    let mut sink = Sink::default();
+    let proof = Proof::new(ready.dialect.control(), ready.dialect.name(), setup);
+    let mut proof = match proof {
+        Ok(proof) => proof,
+        Err(unknown) => {
+            stream::unknown_control(&unknown, &mut sink);
+            return (None, sink);
+        }
+    };
+    let mut ended = false;
+    for part in receiver {
+        if !proof.part(&part.cl, &part.target, &part.emitted, part.last, &mut sink) {
+            return (None, sink);
+        }
+        ended = part.last;
+    }
+    let proven = if ended { proof.finish(operations(survey)) } else { None };
+    (proven, sink)
+}
+
+fn operations(survey: &Survey) -> Vec<OperationProof> {
+    let places = survey.places.iter().map(Some).chain(std::iter::repeat(None));
+    let operations = survey.cl.operations.iter().zip(places);
+    operations.map(|(operation, place)| OperationProof::unmeasured(operation, place.copied())).collect()
+}

@@ -1,0 +1,119 @@
+//! CL files in each producer's style: read, posted to every control, proven, snapshotted; found by directory.
+//!
+//! `INSTA_UPDATE=always cargo test --test cl_files` rewrites the snapshots.
+
+mod common;
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use common::Directory;
+use partwright::diag::Severity;
+use partwright::driver::{self, Build, Options};
+use partwright::source::MemoryFiles;
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cl")
+}
+
+fn files() -> Vec<String> {
+    let entries = std::fs::read_dir(folder()).expect("the folder");
+    let mut names: Vec<String> =
+        entries.filter_map(Result::ok).map(|e| e.file_name().to_string_lossy().into_owned()).collect();
+    names.sort();
+    names
+}
+
+fn options(posts: &[&str], only_nc: bool) -> Options {
+    Options { posts: posts.iter().map(|p| (*p).to_owned()).collect(), only_nc, ..Options::default() }
+}
+
+fn messages(build: &Build) -> String {
+    let mut out = String::new();
+    for d in &build.diagnostics {
+        let place = d.primary.as_ref().map(|p| build.sources.file(p.span.file).line_column(p.span.start).0);
+        let _ = writeln!(out, "{} line {}: {}", d.code.id, place.unwrap_or(0), d.message);
+    }
+    out
+}
+
+#[test]
+fn every_file_posts_and_its_programs_are_as_reviewed() {
+    for name in files() {
+        let build = driver::build(&name, &Directory(folder()), &options(&["linuxcnc", "fanuc"], false));
+        let mut text = messages(&build);
+        let cl = build.cl.as_ref().map(partwright::cl::print::print).unwrap_or_default();
+        let _ = writeln!(text, "== cl\n{cl}");
+        for output in &build.outputs {
+            let proven = output.proven.as_ref().unwrap_or_else(|| panic!("{name}: {text}"));
+            let _ = writeln!(text, "== {}\n{}", output.post, proven.text());
+        }
+        insta::assert_snapshot!(name.replace('.', "_"), text);
+    }
+}
+
+#[test]
+fn every_control_gets_a_proven_program_or_a_reason() {
+    let posts: Vec<&str> = partwright::post::builtin_names().collect();
+    for name in files() {
+        let build = driver::build(&name, &Directory(folder()), &options(&posts, true));
+        let errors: Vec<_> = build.diagnostics.iter().filter(|d| d.severity == Severity::Error).collect();
+        assert!(errors.is_empty(), "{name}: {errors:#?}");
+        assert!(!build.outputs.is_empty() && build.outputs.iter().all(|o| o.proven.is_some()), "{name}");
+    }
+}
+
+/// A long file with everything in it that a part may end beside.
+fn long() -> String {
+    let mut text = String::from("LOADTL/1\nSPINDL/2000,RPM,CLW\nFEDRAT/500,MMPM\nRAPID\nGOTO/0,0,10\n");
+    for i in 0..60_000_u32 {
+        let (x, y) = (f64::from(i % 500) * 0.25, f64::from(i / 500) * 0.5);
+        let _ = writeln!(text, "GOTO/{x:.4},{y:.4},{:.4}", f64::from(i % 7) * 0.01 - 1.0);
+        match i % 9_973 {
+            5_000 => text += "FEDRAT/650,MMPM\n",
+            6_000 => {
+                let _ =
+                    writeln!(text, "CIRCLE/{},{y:.4},-1,0,0,1,5\nGOTO/{:.4},{y:.4},-1", x + 5.0, x + 10.0);
+            }
+            7_000 => {
+                let _ = writeln!(
+                    text,
+                    "CYCLE/DRILL,FEDTO,4,MMPM,90,RAPTO,12\nGOTO/{x},{y},0\nGOTO/{},{y},0\nCYCLE/OFF",
+                    x + 8.0
+                );
+            }
+            8_000 => text += "LOADTL/2\nSPINDL/1500,RPM,CLW\nRAPID\nGOTO/0,0,20\n",
+            _ => {}
+        }
+    }
+    text + "FINI\n"
+}
+
+#[test]
+fn a_file_built_in_parts_is_the_file_built_at_once() {
+    let files = MemoryFiles([("long.cl".to_owned(), long())].into());
+    for post in ["linuxcnc", "fanuc", "grbl"] {
+        let whole = driver::build("long.cl", &files, &options(&[post], false));
+        let parts = driver::build("long.cl", &files, &options(&[post], true));
+        let text = |build: &Build| {
+            let proven = build.outputs.first().and_then(|o| o.proven.as_ref());
+            proven.unwrap_or_else(|| panic!("{}", messages(build))).text().to_owned()
+        };
+        assert!(text(&whole) == text(&parts), "{post}");
+        let certificate = |build: &Build| {
+            let proven = build.outputs[0].proven.as_ref().expect("proven");
+            serde_json::to_string(&(proven.certificate().moves, &proven.certificate().digest)).expect("json")
+        };
+        assert_eq!(certificate(&whole), certificate(&parts), "{post}");
+    }
+}
+
+#[test]
+fn a_wrong_line_is_found_in_any_part() {
+    // The proof of a part must fail as that of a whole program does: a point beyond the machine's words.
+    let text = long().replace("FINI\n", "GOTO/ 1, 1, 1, 0, 1, 0\nFINI\n");
+    let files = MemoryFiles([("long.cl".to_owned(), text)].into());
+    let build = driver::build("long.cl", &files, &options(&["linuxcnc"], true));
+    assert!(build.outputs.iter().all(|o| o.proven.is_none()));
+    assert!(messages(&build).contains("E1004"), "{}", messages(&build));
+}
