@@ -57,9 +57,20 @@ fn every_control_gets_a_proven_program_or_a_reason() {
     let posts: Vec<&str> = partwright::post::builtin_names().collect();
     for name in files() {
         let build = driver::build(&name, &Directory(folder()), &options(&posts, true));
-        let errors: Vec<_> = build.diagnostics.iter().filter(|d| d.severity == Severity::Error).collect();
+        // A post whose control nobody reads back makes no program.
+        let unread = |d: &&partwright::diag::Diagnostic| d.code.id == "E0810";
+        let errors: Vec<_> = build
+            .diagnostics
+            .iter()
+            .filter(|d| d.severity == Severity::Error && !unread(d))
+            .map(|d| (d.code.id, &d.message))
+            .collect();
         assert!(errors.is_empty(), "{name}: {errors:#?}");
-        assert!(!build.outputs.is_empty() && build.outputs.iter().all(|o| o.proven.is_some()), "{name}");
+        let unproven = build.outputs.iter().filter(|o| o.proven.is_none()).count();
+        assert!(
+            !build.outputs.is_empty() && unproven <= build.diagnostics.iter().filter(unread).count(),
+            "{name}"
+        );
     }
 }
 

@@ -171,7 +171,8 @@ fn prove(
     setup: &MachineSetup,
 ) -> (Option<Proven>, Sink) {
     let mut sink = Sink::default();
-    let proof = Proof::new(ready.dialect.control(), ready.dialect.name(), setup);
+    let proof =
+        Proof::new(ready.dialect.control_with(&ready.capabilities.options), ready.dialect.name(), setup);
     let mut proof = match proof {
         Ok(proof) => proof,
         Err(unknown) => {
