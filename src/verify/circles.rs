@@ -24,7 +24,7 @@ const NO_ANGLE: f64 = 1e-9;
 /// Checks every circle of the CL data.
 pub(super) fn all(case: &Case<'_>) -> Vec<Finding> {
     let mut findings = Vec::new();
-    let mut at: Option<Point3> = None;
+    let mut at: Option<Point3> = case.start;
     let mut depth = 0.0;
     for (index, record) in case.cl.records.iter().enumerate() {
         match &record.kind {

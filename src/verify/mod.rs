@@ -129,6 +129,8 @@ struct Case<'a> {
     happenings: &'a [Happening<'a>],
     /// Of each CL record, the range of `happenings` that stand for it.
     spans: &'a [(usize, usize)],
+    /// Where the CL data have the tool before the first record, in a part of a program.
+    start: Option<crate::geom::Point3>,
 }
 
 impl<'a> Case<'a> {
@@ -222,6 +224,7 @@ fn judge(
         written: &plan.written,
         happenings: &happenings,
         spans: &spans,
+        start: None,
     };
     let (findings, operations) = check(&case, &trace, plan.lines, &emitted.lines, None);
     let certificate = issue::certificate(&case, &trace, emitted, control, operations);

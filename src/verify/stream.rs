@@ -10,7 +10,7 @@ use super::certificate::{Certificate, Moves, OperationProof, TIME_MODEL, Time, V
 use super::finding::{Finding, Reporter, Text};
 use super::plan::{self, Context, InForce, Lines, Orders};
 use super::{ACCURACY, Case, Emitted, Proven, check, issue, placed};
-use crate::cl::{Cl, RecordKind};
+use crate::cl::{Cl, Record, RecordKind};
 use crate::diag::Sink;
 use crate::diag::codes::verification as codes;
 use crate::geom::Point3;
@@ -27,6 +27,8 @@ pub struct Stream<'s> {
     context: (Context, usize),
     in_force: InForce,
     at: Option<Point3>,
+    /// The same as the CL data have it.
+    asked_at: Option<Point3>,
     moves: Moves,
     time: Time,
     digest: Sha256,
@@ -59,9 +61,10 @@ impl<'s> Stream<'s> {
             needs,
             control: control.to_owned(),
             post: post.to_owned(),
-            context: (Context { operation: None, tool: None }, 0),
+            context: (Context::START, 0),
             in_force: InForce::default(),
             at: None,
+            asked_at: None,
             moves: Moves::default(),
             time: Time { model: TIME_MODEL, ..Time::default() },
             digest: Sha256::new(),
@@ -97,6 +100,8 @@ impl<'s> Stream<'s> {
         let orders = Orders::after(cl, &mut self.in_force);
         let written = plan::written(cl);
         let moves = placed(&trace, &lines);
+        let happenings = super::happenings(&trace, &lines);
+        let spans = super::spans(cl, target, &happenings);
         let case = Case {
             cl,
             target,
@@ -105,6 +110,9 @@ impl<'s> Stream<'s> {
             needs: self.needs,
             moves: &moves,
             written: &written,
+            happenings: &happenings,
+            spans: &spans,
+            start: self.asked_at,
         };
         let (mut findings, _) = check(&case, &trace, &lines, &emitted.lines, self.at);
         if contours(cl) {
@@ -113,6 +121,7 @@ impl<'s> Stream<'s> {
         }
         issue::count_moves(&case, &mut self.moves);
         issue::add_time(&case, &trace, &mut self.time);
+        self.asked_at = cl.records.iter().rev().find_map(point).or(self.asked_at);
         self.at = moves.last().map(|m| m.cut.end()).or(self.at);
         let mut reporter = Reporter::new(cl, target, sink);
         findings.iter().for_each(|finding| reporter.report(finding));
@@ -142,6 +151,15 @@ impl<'s> Stream<'s> {
             operations,
         };
         Some(Proven { text: self.text, certificate })
+    }
+}
+
+/// Where a record ends; parts end at straight moves.
+fn point(record: &Record) -> Option<Point3> {
+    match &record.kind {
+        RecordKind::From(p) | RecordKind::Rapid(p) | RecordKind::Linear(p) => Some(*p),
+        RecordKind::Circle(circle) => Some(circle.to),
+        _ => None,
     }
 }
 
