@@ -185,3 +185,52 @@ fn posts_and_messages_are_as_their_schemas_say() {
     }
     assert_eq!(read("report")["type"], "object");
 }
+
+#[test]
+fn the_source_map_links_statements_records_and_blocks() {
+    let scratch = Scratch::new("source-map");
+    scratch.write("points.apt", POINTS);
+    let args = [
+        "build",
+        "points.apt",
+        "--post",
+        "linuxcnc",
+        "--post",
+        "fanuc",
+        "--out-dir",
+        "nc",
+        "--source-map",
+        "map.json",
+    ];
+    assert_eq!(code(&scratch.run(&args)), 0);
+    let map: Value = serde_json::from_str(&scratch.read("map.json")).expect("JSON");
+    let schema: Value = serde_json::from_str(&stdout(&scratch.run(&["schema", "source-map"]))).expect("JSON");
+    schema::check(&schema, &schema, &map, "map").expect("as the schema says");
+    let programs = map["programs"].as_array().expect("programs");
+    assert_eq!(programs.len(), 2);
+    for program in programs {
+        let nc = scratch.read(program["file"].as_str().expect("a file"));
+        let record =
+            program["records"].as_array().and_then(|r| r.iter().find(|r| r["text"] == "GOTO/ 10, 0, 5"));
+        let record = record.expect("the move");
+        assert_eq!(record["source"]["first"], 8);
+        let line = record["nc"][0][0].as_u64().expect("a line") as usize;
+        assert!(nc.lines().nth(line - 1).is_some_and(|l| l.starts_with("G1 X10")), "{record}\n{nc}");
+    }
+}
+
+#[test]
+fn trace_writes_a_page_and_never_over_a_source() {
+    let scratch = Scratch::new("trace");
+    scratch.write("points.apt", POINTS).write("broken.apt", "GOTO/ 1 2\n");
+    assert_eq!(code(&scratch.run(&["post", "trace", "points.apt"])), 0);
+    assert!(scratch.read("points.linuxcnc.html").contains("<code>GOTO/ 10, 0, 5</code>"));
+    let fanuc = scratch.run(&["post", "trace", "points.apt", "--post", "fanuc", "-o", "-"]);
+    assert!(stdout(&fanuc).contains("points.apt for fanuc"), "{}", stdout(&fanuc));
+    assert_eq!(code(&scratch.run(&["post", "trace", "broken.apt", "-o", "page.html"])), 1);
+    let over = scratch.run(&["post", "trace", "points.apt", "-o", "points.apt"]);
+    assert_eq!(code(&over), 2);
+    assert!(stderr(&over).contains("E0909"), "{}", stderr(&over));
+    assert_eq!(scratch.read("points.apt"), POINTS);
+    assert_eq!(scratch.names(), ["broken.apt", "points.apt", "points.linuxcnc.html"]);
+}

@@ -34,6 +34,17 @@ pub fn print(cl: &Cl) -> String {
     printer.out
 }
 
+/// The text of every record, in order.
+#[must_use]
+pub fn records(cl: &Cl) -> Vec<String> {
+    let one = |record: &Record| {
+        let mut printer = Printer { out: String::new(), cl, scale: cl.units.in_mm() };
+        printer.record(record);
+        printer.out
+    };
+    cl.records.iter().map(one).collect()
+}
+
 /// A number as CL text prints it.
 #[must_use]
 pub fn number(value: f64) -> String {

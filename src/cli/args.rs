@@ -6,8 +6,10 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::diag::render::Format;
 
+pub mod golden;
 pub mod post;
 
+use golden::{DiffArgs, NewArgs, TestArgs};
 use post::{PostArgs, SchemaArgs};
 
 /// A compiler for part programs: APT-like source in, proven G-code out.
@@ -33,6 +35,8 @@ Examples:
   partwright build *.apt --post grbl --out-dir nc   several programs, one directory
   partwright build plate.apt -D STROKE=25mm         gives a PARAM of the program another value
   partwright check plate.apt                        all checks, no output
+  partwright test                                   compares all programs here with their golden files
+  partwright diff old.fanuc.nc plate.fanuc.nc       compares two NC programs as motion
   partwright explain E0401                          what a message means and how to mend it
 
 Exit status: 0 done, 1 errors in the program, 2 usage or file trouble, 3 a golden file differs,
@@ -54,6 +58,12 @@ pub enum Verb {
     /// Draw a cam, the cutter's path, or its deviation from the exact curves.
     #[command(after_help = PLOT_EXAMPLES)]
     Plot(PlotArgs),
+    /// Build programs and compare with golden files.
+    Test(TestArgs),
+    /// Compare two NC programs as motion.
+    Diff(DiffArgs),
+    /// Make a project: a post, a program, golden files, a CI file.
+    New(NewArgs),
     /// List, show, check, make and try posts.
     Post(PostArgs),
     /// Print the JSON Schema of a file that partwright reads or writes.
@@ -109,6 +119,9 @@ pub struct BuildArgs {
     /// Write the certificates of all NC programs as JSON (docs/schema/report.schema.json).
     #[arg(long, value_name = "FILE")]
     pub report: Option<PathBuf>,
+    /// Write which source line, CL record and NC lines belong together (docs/schema/source-map.schema.json).
+    #[arg(long, value_name = "FILE")]
+    pub source_map: Option<PathBuf>,
     /// Write the files that were read and the files that are made.
     #[arg(long, value_name = "FILE")]
     pub deps: Option<PathBuf>,

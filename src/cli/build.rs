@@ -9,7 +9,7 @@ use super::disk::{Disk, STDIN};
 use super::messages::{self, Messages, to_stderr};
 use super::output::{self, Product};
 use super::progress::Progress;
-use super::{Status, deps, report};
+use super::{Status, deps, report, source_map};
 use crate::diag::codes::{command as codes, foreign, verification};
 use crate::diag::{Diagnostic, Severity};
 use crate::driver::{self, Build, Output};
@@ -72,6 +72,9 @@ fn build_with(
     if let Some(path) = &args.report {
         products.push(report::product(path, &compiled, &planned));
     }
+    if let Some(path) = &args.source_map {
+        products.push(source_map::product(path, &compiled, &planned));
+    }
     if let Some(folder) = &args.out_dir {
         output::make_folder(folder)?;
     }
@@ -105,7 +108,7 @@ fn producer(name: &str) -> Result<clfile::Producer, Diagnostic> {
     clfile::producer_named(name).map_err(|why| Diagnostic::global(&foreign::UNKNOWN_PRODUCER, why))
 }
 
-fn set_threads(jobs: usize) -> Result<(), Diagnostic> {
+pub fn set_threads(jobs: usize) -> Result<(), Diagnostic> {
     let bad = |why: String| Diagnostic::global(&codes::BAD_THREADS, format!("-j {jobs}: {why}"));
     if jobs == 0 {
         return Err(bad("at least one thread is needed".to_owned()));
@@ -163,10 +166,11 @@ pub fn show(compiled: &[Compiled], messages: Messages) -> Status {
 pub fn worse(a: Status, b: Status) -> Status {
     let rank = |s: Status| match s {
         Status::Done => 0,
-        Status::NotProven => 1,
-        Status::Errors => 2,
-        Status::Trouble => 3,
-        Status::Fault => 4,
+        Status::Differs => 1,
+        Status::NotProven => 2,
+        Status::Errors => 3,
+        Status::Trouble => 4,
+        Status::Fault => 5,
     };
     if rank(a) >= rank(b) { a } else { b }
 }
@@ -282,7 +286,7 @@ fn stage_name(stage: Stage) -> &'static str {
 
 /// Two products with one name, or a product with the name of a file that was read.
 fn refuse_clashes(planned: &[Planned], compiled: &[Compiled], args: &BuildArgs) -> Result<(), Diagnostic> {
-    let extra = args.report.iter().chain(&args.deps);
+    let extra = args.report.iter().chain(&args.deps).chain(&args.source_map);
     let mut targets: Vec<&Path> =
         planned.iter().map(|p| p.path.as_path()).chain(extra.map(PathBuf::as_path)).collect();
     targets.retain(|p| !output::is_stdout(p) && !is_device(p));
@@ -299,6 +303,12 @@ fn refuse_clashes(planned: &[Planned], compiled: &[Compiled], args: &BuildArgs) 
         Some(path) => Err(clash(path, "is a source file; it would be overwritten")),
         None => Ok(()),
     }
+}
+
+/// Refuses to write over a file that was read.
+pub fn refuse_source(path: &Path, build: &Build) -> Result<(), Diagnostic> {
+    let source = build.sources.iter().any(|(_, file)| real(Path::new(&file.name)) == real(path));
+    if source { Err(clash(path, "is a source file; it would be overwritten")) } else { Ok(()) }
 }
 
 fn clash(path: &Path, what: &str) -> Diagnostic {

@@ -9,18 +9,25 @@ use crate::diag::Diagnostic;
 mod args;
 mod build;
 mod deps;
+mod diff;
 pub mod disk;
 mod explain;
 mod messages;
+mod new;
 mod output;
 mod plot;
 mod post;
 mod progress;
 mod report;
 mod schema;
+mod source_map;
+mod test;
 
 use args::{Cli, Verb};
 use messages::Messages;
+
+/// The controller of pictures and pages when nothing names one.
+const DEFAULT_POST: &str = "linuxcnc";
 
 /// How a run ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -31,6 +38,8 @@ pub enum Status {
     Errors = 1,
     /// Usage, configuration or file trouble.
     Trouble = 2,
+    /// A golden file, or the other program of a comparison, differs.
+    Differs = 3,
     /// Verification found something.
     NotProven = 4,
     /// Our own fault.
@@ -82,6 +91,9 @@ fn dispatch(cli: &Cli) -> Status {
         Verb::Check(args) => build::check(args, messages),
         Verb::Explain(args) => explain::explain(args.code.as_deref()).and_then(|page| print(&page)),
         Verb::Plot(args) => plot::plot(args, messages),
+        Verb::Test(args) => test::test(args, messages),
+        Verb::Diff(args) => diff::diff(args, messages),
+        Verb::New(args) => new::new(args, messages),
         Verb::Post(args) => post::post(&args.verb, messages),
         Verb::Schema(args) => print(&schema::text(args.of)),
     };

@@ -30,6 +30,14 @@ pub fn make_folder(folder: &Path) -> Result<(), Diagnostic> {
     })
 }
 
+/// Removes a file.
+pub fn remove(path: &Path) -> Result<(), Diagnostic> {
+    fs::remove_file(path).map_err(|error| {
+        let message = format!("{} cannot be removed: {}", path.display(), reason(&error));
+        Diagnostic::global(&codes::CANNOT_WRITE, message)
+    })
+}
+
 /// Writes all products: each to a new file beside its target, and when all are complete they are renamed.
 /// When one cannot be written the old files are as they were.
 pub fn write_all(products: &[Product]) -> Result<(), Diagnostic> {

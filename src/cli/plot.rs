@@ -2,19 +2,16 @@
 
 use std::path::{Path, PathBuf};
 
-use super::Status;
 use super::args::{Picture, PlotArgs};
 use super::build::{self, Compiled};
 use super::disk::STDIN;
 use super::messages::Messages;
 use super::output::{self, Product, is_stdout};
+use super::{DEFAULT_POST, Status};
 use crate::diag::Diagnostic;
 use crate::diag::codes::command as codes;
 use crate::driver;
 use crate::plot::{self, Figure, PlotError, What};
-
-/// The controller whose path is drawn when nothing names one.
-const DEFAULT_POST: &str = "linuxcnc";
 
 /// Compiles the program and draws it.
 pub fn plot(args: &PlotArgs, messages: Messages) -> Result<Status, Diagnostic> {

@@ -14,6 +14,7 @@ mod check;
 mod list;
 mod new;
 mod show;
+mod trace;
 
 /// Dispatches.
 pub fn post(verb: &PostVerb, messages: Messages) -> Result<Status, Diagnostic> {
@@ -22,6 +23,7 @@ pub fn post(verb: &PostVerb, messages: Messages) -> Result<Status, Diagnostic> {
         PostVerb::Show(args) => show::show(args, messages),
         PostVerb::Check(args) => check::check(args, messages),
         PostVerb::New(args) => new::new(args, messages),
+        PostVerb::Trace(args) => trace::trace(args, messages),
     }
 }
 

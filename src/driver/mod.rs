@@ -73,6 +73,8 @@ pub struct Output {
     pub units: LengthUnit,
     /// The lowered program.
     pub target: Option<TargetProgram>,
+    /// Lines of the NC text by block of [`Output::target`]: first, from 1, and one past the last.
+    pub lines: Vec<(u32, u32)>,
     /// The NC program, when it has been proven: the only thing that may be written.
     pub proven: Option<Proven>,
 }

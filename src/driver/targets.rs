@@ -68,6 +68,7 @@ impl Ready {
             extension: self.dialect.extension().to_owned(),
             units,
             target: None,
+            lines: Vec::new(),
             proven: None,
         }
     }
@@ -135,18 +136,20 @@ pub(super) fn prepare(
 fn one(cl: &Cl, ready: &Ready, sources: &SourceMap) -> (Output, Sink) {
     let mut sink = Sink::default();
     let target = lower::lower(cl, &ready.capabilities, &mut sink);
-    let proven = target.as_ref().and_then(|t| prove(cl, ready, t, sources, &mut sink));
-    (Output { target, proven, ..ready.output(cl.units) }, sink)
+    let emitted = target.as_ref().and_then(|t| written(&ready.dialect, t, &cl.origins, &mut sink));
+    let lines = emitted.as_ref().map(|e| e.lines.clone()).unwrap_or_default();
+    let proven = target.as_ref().zip(emitted).and_then(|(t, e)| prove(cl, ready, t, e, sources, &mut sink));
+    (Output { target, lines, proven, ..ready.output(cl.units) }, sink)
 }
 
 fn prove(
     cl: &Cl,
     ready: &Ready,
     target: &TargetProgram,
+    emitted: Emitted,
     sources: &SourceMap,
     sink: &mut Sink,
 ) -> Option<Proven> {
-    let emitted = written(&ready.dialect, target, &cl.origins, sink)?;
     let mut proven =
         verify::prove(cl, target, emitted, ready.dialect.control_with(&ready.capabilities.options), sink)?;
     locate(&mut proven, sources);

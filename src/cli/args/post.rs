@@ -52,7 +52,8 @@ Examples:
   partwright post list                              the built-in posts, and how sure each is
   partwright post show haas --resolved              every value and the file it comes from
   partwright post new mill --from fanuc             a post of your own: writes mill.post.toml
-  partwright post check mill.post.toml              finds what no program needs to find";
+  partwright post check mill.post.toml              finds what no program needs to find
+  partwright post trace plate.apt --post mill.post.toml   a page to click through: source, CL, NC";
 
 /// What `post` can do.
 #[derive(Debug, Subcommand)]
@@ -65,6 +66,8 @@ pub enum PostVerb {
     Check(PostCheckArgs),
     /// Write a new post that inherits from another.
     New(PostNewArgs),
+    /// Write a page that links source lines, CL records and NC lines.
+    Trace(PostTraceArgs),
 }
 
 /// Arguments of `post list`.
@@ -114,6 +117,26 @@ pub struct PostNewArgs {
     pub from: String,
 }
 
+/// Arguments of `post trace`.
+#[derive(Debug, Args)]
+pub struct PostTraceArgs {
+    /// The program file; `-` is standard input.
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+    /// The controller; without it the program's first, or linuxcnc.
+    #[arg(long, value_name = "NAME|FILE")]
+    pub post: Option<String>,
+    /// The page; `-` is standard output. Default: STEM.POST.html beside the source.
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// What the post says otherwise.
+    #[command(flatten)]
+    pub overrides: PostSet,
+    /// What all verbs that compile take.
+    #[command(flatten)]
+    pub common: super::CommonArgs,
+}
+
 /// Arguments of `schema`.
 #[derive(Debug, Args)]
 pub struct SchemaArgs {
@@ -131,6 +154,14 @@ pub enum Schema {
     Report,
     /// One line of `--message-format json`.
     Diagnostics,
+    /// The file that `build --source-map` writes.
+    SourceMap,
+    /// Test files, NAME.test.toml.
+    Test,
+    /// What `test --format json` prints.
+    TestReport,
+    /// What `diff --format json` prints.
+    Diff,
 }
 
 /// Text for people or JSON for programs.

@@ -51,8 +51,30 @@ pub const BAD_NAME: Code = Code {
     page: include_str!("../../../docs/diagnostics/E0953.md"),
 };
 
+/// the control cannot execute an NC program.
+pub const NOT_EXECUTABLE: Code = Code {
+    id: "E0954",
+    title: "the control cannot execute an NC program",
+    page: include_str!("../../../docs/diagnostics/E0954.md"),
+};
+
+/// a test file cannot be used.
+pub const BAD_SIDECAR: Code = Code {
+    id: "E0955",
+    title: "a test file cannot be used",
+    page: include_str!("../../../docs/diagnostics/E0955.md"),
+};
+
+/// there is nothing to test.
+pub const NOTHING_TO_TEST: Code = Code {
+    id: "E0956",
+    title: "there is nothing to test",
+    page: include_str!("../../../docs/diagnostics/E0956.md"),
+};
+
 /// Findings in post files.
 pub const OF_POSTS: &[&Code] = &[&UNKNOWN_VARIABLE, &INEXPRESSIBLE, &UNREACHABLE, &ALIKE];
 
 /// Codes of the command line.
-pub const OF_COMMANDS: &[&Code] = &[&BAD_POST_SET, &ALREADY_THERE, &BAD_NAME];
+pub const OF_COMMANDS: &[&Code] =
+    &[&BAD_POST_SET, &ALREADY_THERE, &BAD_NAME, &NOT_EXECUTABLE, &BAD_SIDECAR, &NOTHING_TO_TEST];

@@ -1,0 +1,98 @@
+//! `partwright diff`.
+
+use std::path::Path;
+
+use super::args::golden::DiffArgs;
+use super::args::post::TextOrJson;
+use super::disk::{Disk, LARGEST, reason};
+use super::messages::Messages;
+use super::{Status, build, print};
+use crate::diag::Diagnostic;
+use crate::diag::codes::{command, tools as codes};
+use crate::golden::names;
+use crate::motion_diff::{self, Comparison, Tolerance, print as motion_print};
+use crate::post;
+use crate::readback::{MachineSetup, Rotary};
+use crate::source::SourceMap;
+
+/// Complaints of a control that are shown of each program.
+const MOST_COMPLAINTS: usize = 10;
+
+/// Compares two programs and prints how they differ.
+pub fn diff(args: &DiffArgs, messages: Messages) -> Result<Status, Diagnostic> {
+    let control = match control(args, messages)? {
+        Ok(control) => control,
+        Err(status) => return Ok(status),
+    };
+    let (a, b) = (read(&args.a)?, read(&args.b)?);
+    let tolerance = Tolerance { distance: args.tolerance, rate: args.rate_tolerance / 100.0 };
+    let rotary = args.rotary.map(|letter| Rotary { letter: letter.to_ascii_uppercase(), reversed: false });
+    let setup = MachineSetup { rotary, ..MachineSetup::default() };
+    let compared = motion_diff::compare([&a, &b], &control, &setup, tolerance);
+    let comparison =
+        compared.map_err(|unknown| Diagnostic::global(&codes::NOT_EXECUTABLE, unknown.to_string()))?;
+    complain(&comparison, args, messages);
+    print(&match args.format {
+        TextOrJson::Json => serde_json::to_string_pretty(&comparison).unwrap_or_default() + "\n",
+        TextOrJson::Text => text(&comparison, args),
+    })?;
+    Ok(match (comparison.is_executable(), comparison.is_same()) {
+        (false, _) => Status::NotProven,
+        (true, false) => Status::Differs,
+        (true, true) => Status::Done,
+    })
+}
+
+/// The control of the post that was named, or that the first file's name says.
+fn control(args: &DiffArgs, messages: Messages) -> Result<Result<String, Status>, Diagnostic> {
+    let of_file = |path: &Path| {
+        let name = path.file_name()?.to_string_lossy().into_owned();
+        names::post(&name).filter(|p| post::builtin_text(p).is_some()).map(str::to_owned)
+    };
+    let named = args.post.clone().or_else(|| of_file(&args.a)).or_else(|| of_file(&args.b));
+    let Some(name) = named else {
+        let message = format!("no post is named, and {} does not say it in its name", args.a.display());
+        return Err(Diagnostic::global(&command::NO_POST, message).help("name the post with --post"));
+    };
+    let mut sources = SourceMap::default();
+    match post::load(&name, &Disk::for_main(Path::new(&name)), &mut sources) {
+        Ok(dialect) => Ok(Ok(dialect.control().to_owned())),
+        Err(errors) => {
+            messages.show(&errors, &sources);
+            Ok(Err(build::status_of(&errors)))
+        }
+    }
+}
+
+fn read(path: &Path) -> Result<Vec<u8>, Diagnostic> {
+    let trouble = |why: String| {
+        Diagnostic::global(&command::CANNOT_READ, format!("{} cannot be read: {why}", path.display()))
+    };
+    let size = std::fs::metadata(path).map_err(|e| trouble(reason(&e)))?.len();
+    if size > LARGEST {
+        let message = format!("{} has more than {LARGEST} bytes", path.display());
+        return Err(Diagnostic::global(&command::TOO_LARGE, message));
+    }
+    std::fs::read(path).map_err(|e| trouble(reason(&e)))
+}
+
+fn complain(comparison: &Comparison, args: &DiffArgs, messages: Messages) {
+    for (path, faults) in [&args.a, &args.b].into_iter().zip(&comparison.faults) {
+        for fault in faults.iter().take(MOST_COMPLAINTS) {
+            let message = format!("{}, line {}: {}", path.display(), fault.line, fault.message);
+            messages.global(&Diagnostic::global(&codes::NOT_EXECUTABLE, message));
+        }
+    }
+}
+
+fn text(comparison: &Comparison, args: &DiffArgs) -> String {
+    let (a, b) = (args.a.to_string_lossy(), args.b.to_string_lossy());
+    if comparison.is_same() {
+        let [of_a, of_b] = comparison.moves;
+        return format!(
+            "same motion: {:.1} mm of path, {of_a} and {of_b} moves, within {} mm\n",
+            comparison.lengths[0], args.tolerance
+        );
+    }
+    motion_print::text(comparison, motion_print::Names { a: &a, b: &b })
+}
