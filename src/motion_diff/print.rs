@@ -72,6 +72,8 @@ fn state_text(difference: &StateDifference, names: Names<'_>) -> String {
         Property::Spindle => ("spindle", " rev/min"),
         Property::Tool => ("tool", ""),
         Property::LengthOffset => ("tool length offset", ""),
+        Property::Coolant => ("coolant", ""),
+        Property::WorkOffset => ("work offset", ""),
         Property::PathTolerance => ("path tolerance", " mm"),
     };
     let ([a, b], [old, new]) = (difference.lines, &difference.values);

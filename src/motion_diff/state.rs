@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::chords::Path;
 use super::walk::{self, Walked, ordered};
 use super::{Tolerance, coordinates};
-use crate::readback::{FeedMode, TraceMove};
+use crate::readback::{FeedMode, TraceMove, Washing};
 
 /// What can differ while the path is the same.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -23,6 +23,10 @@ pub enum Property {
     Tool,
     /// Tool length taken in.
     LengthOffset,
+    /// Coolant.
+    Coolant,
+    /// Work offset, 1 for the first.
+    WorkOffset,
     /// How far the control may leave the path, mm.
     PathTolerance,
 }
@@ -159,10 +163,26 @@ fn differences(a: &TraceMove, b: &TraceMove, rate: f64) -> Vec<(Property, [Strin
         let word = |on| if on { "on" } else { "off" }.to_owned();
         note(Property::LengthOffset, word(a.length_offset), word(b.length_offset));
     }
+    if a.coolant != b.coolant {
+        note(Property::Coolant, coolant(a.coolant), coolant(b.coolant));
+    }
+    if a.work_offset != b.work_offset {
+        note(Property::WorkOffset, a.work_offset.to_string(), b.work_offset.to_string());
+    }
     if a.path_tolerance != b.path_tolerance {
         note(Property::PathTolerance, number(a.path_tolerance), number(b.path_tolerance));
     }
     found
+}
+
+fn coolant(on: Washing) -> String {
+    match (on.flood, on.mist) {
+        (false, false) => "off",
+        (true, false) => "flood",
+        (false, true) => "mist",
+        (true, true) => "flood and mist",
+    }
+    .to_owned()
 }
 
 /// At most four decimals.

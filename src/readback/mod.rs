@@ -18,7 +18,6 @@ mod out;
 mod trace;
 mod word;
 
-#[cfg(test)]
 pub(crate) use curve::point as nurbs_point;
 pub use trace::{
     EventKind, Fault, FeedMode, MOST_FAULTS, Tilted, Trace, TraceEvent, TraceMove, TracePath, Washing,
