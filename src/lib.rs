@@ -28,6 +28,7 @@ pub mod plan;
 pub mod plot;
 pub mod post;
 pub mod readback;
+pub mod selftest;
 pub mod sema;
 pub mod source;
 pub mod syntax;

@@ -13,6 +13,7 @@ use crate::source::SourceMap;
 mod check;
 mod list;
 mod new;
+mod selftest;
 mod show;
 mod trace;
 
@@ -23,6 +24,7 @@ pub fn post(verb: &PostVerb, messages: Messages) -> Result<Status, Diagnostic> {
         PostVerb::Show(args) => show::show(args, messages),
         PostVerb::Check(args) => check::check(args, messages),
         PostVerb::New(args) => new::new(args, messages),
+        PostVerb::Selftest(args) => selftest::selftest(args, messages),
         PostVerb::Trace(args) => trace::trace(args, messages),
     }
 }

@@ -15,8 +15,6 @@ mod chords;
 mod events;
 pub mod print;
 mod state;
-#[cfg(test)]
-mod tests;
 mod walk;
 
 pub use events::EventDifference;

@@ -8,8 +8,10 @@ use super::chords::Path;
 use super::{PathDifference, coordinates};
 use crate::geom::Point3;
 
-/// Chords that are looked at for a match at least, when none of the next is near.
-const LOOK_AHEAD: usize = 16;
+/// How much longer than a step of one path the way along the other may be, relative to the step …
+const LONGER: f64 = 1.05;
+/// … and beyond that, in tolerances.
+const SLACK: f64 = 20.0;
 
 /// A point of a path: on the chord that ends at corner `chord`, `x` of the way along it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,7 +44,7 @@ fn along(path: &Path<'_>, other: &Path<'_>, tolerance: f64) -> Vec<Match> {
     }
     for (index, point) in path.points.iter().enumerate() {
         let step = index.checked_sub(1).map_or(0.0, |before| length_between(path, before, index));
-        let found = next(*point, other, here, 2.0 * step + 100.0 * tolerance, tolerance);
+        let found = next(*point, other, here, LONGER * step + SLACK * tolerance, tolerance);
         here = (found.chord.max(1), found.x);
         matches.push(found);
     }
@@ -53,29 +55,28 @@ fn length_between(path: &Path<'_>, a: usize, b: usize) -> f64 {
     path.at.get(b).zip(path.at.get(a)).map_or(0.0, |(b, a)| b - a)
 }
 
-/// The first point from `here` on, or else the nearest within `window` mm of path, at which the distance is least and
-/// within the tolerance.
+/// The first point from `here` on, within `window` mm of path, at which the distance is least and within the
+/// tolerance; or else the nearest in the window.
 fn next(point: Point3, other: &Path<'_>, here: (usize, f64), window: f64, tolerance: f64) -> Match {
     let start = at(other, here);
     let mut best = Match { chord: here.0, x: here.1, distance: (point - start.0).norm() };
-    let mut local = best;
     for chord in here.0..other.points.len() {
         let from = if chord == here.0 { here.1 } else { 0.0 };
         let found = nearest(point, other, chord, from);
-        let falls = found.distance < local.distance;
-        if !falls && local.distance <= tolerance {
-            return local;
-        }
-        local = found;
         if found.distance < best.distance {
             best = found;
+        } else if best.distance <= tolerance {
+            return best;
         }
-        let far = other.at.get(chord).is_some_and(|at| at - start.1 > window);
-        if far && chord > here.0 + LOOK_AHEAD {
+        // Only at the end of a chord may the way still lead nearer.
+        if found.x < 1.0 && found.distance <= tolerance {
+            return found;
+        }
+        if other.at.get(chord).is_some_and(|at| at - start.1 > window) {
             break;
         }
     }
-    if local.distance <= tolerance { local } else { best }
+    best
 }
 
 /// The point at a place, and its length along the path.

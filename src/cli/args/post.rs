@@ -53,6 +53,7 @@ Examples:
   partwright post show haas --resolved              every value and the file it comes from
   partwright post new mill --from fanuc             a post of your own: writes mill.post.toml
   partwright post check mill.post.toml              finds what no program needs to find
+  partwright post selftest mill.post.toml           dwells, arcs, comments, feeds, cycles …: row by row
   partwright post trace plate.apt --post mill.post.toml   a page to click through: source, CL, NC";
 
 /// What `post` can do.
@@ -66,6 +67,8 @@ pub enum PostVerb {
     Check(PostCheckArgs),
     /// Write a new post that inherits from another.
     New(PostNewArgs),
+    /// Try a post on everything that controls do differently, and print what it makes of it.
+    Selftest(PostSelftestArgs),
     /// Write a page that links source lines, CL records and NC lines.
     Trace(PostTraceArgs),
 }
@@ -117,6 +120,20 @@ pub struct PostNewArgs {
     pub from: String,
 }
 
+/// Arguments of `post selftest`.
+#[derive(Debug, Args)]
+pub struct PostSelftestArgs {
+    /// A built-in post or a file NAME.post.toml.
+    #[arg(value_name = "NAME|FILE")]
+    pub post: String,
+    /// How to print.
+    #[arg(long, value_enum, default_value_t = TextOrJson::Text, value_name = "FORMAT")]
+    pub format: TextOrJson,
+    /// What the post says otherwise.
+    #[command(flatten)]
+    pub overrides: PostSet,
+}
+
 /// Arguments of `post trace`.
 #[derive(Debug, Args)]
 pub struct PostTraceArgs {
@@ -162,6 +179,8 @@ pub enum Schema {
     TestReport,
     /// What `diff --format json` prints.
     Diff,
+    /// What `post selftest --format json` prints.
+    Selftest,
 }
 
 /// Text for people or JSON for programs.

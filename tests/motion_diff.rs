@@ -1,7 +1,9 @@
+//! NC programs compared as motion.
+
 use proptest::prelude::*;
 
-use super::{Comparison, Property, Tolerance, compare, print};
-use crate::readback::MachineSetup;
+use partwright::motion_diff::{Comparison, Property, Tolerance, compare, print};
+use partwright::readback::MachineSetup;
 
 const HEAD: &str = "G17 G21 G40 G49 G80 G90 G94 G91.1 G54 G61\nT1 M6\nG43 H1\nS1000 M3\nG0 Z5\nG0 X0 Y0\n";
 

@@ -1,0 +1,107 @@
+//! `partwright post selftest`: what a post makes of everything that controls do differently.
+//!
+//! Every [`rows::ROWS`] row is a small program of its own ([`sheet`]), lowered and written for the post, executed by the
+//! interpreter of its control and proven like any other ([`trial`]), then judged by what the machine did or by how it is
+//! spelled ([`judge`]). A row never judges by the post's data: a wrong word in a post is a wrong row.
+
+use serde::Serialize;
+
+use crate::post::Dialect;
+
+mod judge;
+pub mod print;
+mod rows;
+mod sheet;
+mod trial;
+
+/// Version of the JSON form; minor steps only add members.
+pub const VERSION: &str = "1.0";
+
+/// What a post makes of every row.
+#[derive(Debug, Serialize)]
+pub struct Matrix {
+    /// Always `partwright-selftest`.
+    pub schema: &'static str,
+    /// [`VERSION`].
+    pub version: &'static str,
+    /// The post.
+    pub post: String,
+    /// Control and series.
+    pub title: String,
+    /// The control that read the rows back.
+    pub control: String,
+    /// How sure the post's facts are.
+    pub confidence: String,
+    /// What they rest on.
+    pub basis: String,
+    /// The rows in order.
+    pub rows: Vec<Row>,
+}
+
+impl Matrix {
+    /// Whether no row is wrong.
+    #[must_use]
+    pub fn passed(&self) -> bool {
+        self.rows.iter().all(|row| row.verdict != Verdict::Wrong)
+    }
+}
+
+/// A row with its verdict.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Row {
+    /// What it is about: `dwell`, `arcs` …
+    pub area: &'static str,
+    /// What it tries.
+    pub title: &'static str,
+    /// The lines that were emitted for it; empty when the program was refused.
+    pub emitted: Vec<String>,
+    /// What is thought of it.
+    pub verdict: Verdict,
+    /// Why, with the numbers.
+    pub remark: String,
+    /// What the verdict rests on.
+    pub rests_on: RestsOn,
+}
+
+/// Verdicts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Verdict {
+    /// The control does what was asked, in its own words.
+    Right,
+    /// The control has no words for it; what it can do was used instead, and proven.
+    Expressed,
+    /// Refused with a coded message, because the control cannot do it.
+    Refused,
+    /// The post does not apply here.
+    NotApplicable,
+    /// Something else than what was asked, or no proof.
+    Wrong,
+}
+
+/// What a verdict rests on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum RestsOn {
+    /// What the interpreter of the control did with the lines, and the proof of the whole program.
+    ReadBack,
+    /// The spelling of the lines, in a program that was read back and proven.
+    Spelling,
+    /// The message of the compiler.
+    Message,
+}
+
+/// Tries every row.
+#[must_use]
+pub fn run(dialect: &Dialect) -> Matrix {
+    Matrix {
+        schema: "partwright-selftest",
+        version: VERSION,
+        post: dialect.name().to_owned(),
+        title: dialect.title().to_owned(),
+        control: dialect.control().to_owned(),
+        confidence: dialect.confidence().to_owned(),
+        basis: dialect.basis().to_owned(),
+        rows: rows::ROWS.iter().map(|row| judge::row(row, dialect)).collect(),
+    }
+}

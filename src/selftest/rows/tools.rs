@@ -1,0 +1,101 @@
+//! Tools, offsets, coolant and stops.
+
+use super::super::judge::Finding;
+use super::super::sheet::Sheet;
+use super::super::trial::Trial;
+use super::{Try, row};
+use crate::cl::RecordKind;
+use crate::ir::Coolant;
+use crate::readback::{EventKind, TraceMove};
+
+pub(in super::super) const CHANGE: Try = row(
+    "tools",
+    "change to a second tool",
+    || {
+        Sheet::mm()
+            .line(10.0, 0.0, 5.0)
+            .watch()
+            .tool(2)
+            .spindle(800.0)
+            .rapid(0.0, 0.0, 5.0)
+            .line(10.0, 0.0, 5.0)
+    },
+    change,
+);
+pub(in super::super) const WORK_OFFSET: Try =
+    row("tools", "work offset", || Sheet::mm().line(10.0, 0.0, 5.0), work_offset);
+pub(in super::super) const COOLANT: Try = row(
+    "tools",
+    "flood coolant on and off",
+    || {
+        let on = Sheet::mm().add(RecordKind::Coolant(Coolant::Flood)).line(10.0, 0.0, 5.0);
+        on.add(RecordKind::Coolant(Coolant::Off)).line(20.0, 0.0, 5.0)
+    },
+    coolant,
+);
+pub(in super::super) const STOP: Try = row(
+    "tools",
+    "program stop",
+    || Sheet::mm().add(RecordKind::Stop).line(10.0, 0.0, 5.0),
+    |t| stop(t, false),
+);
+pub(in super::super) const OPTIONAL_STOP: Try = row(
+    "tools",
+    "optional stop",
+    || Sheet::mm().add(RecordKind::OptionalStop).line(10.0, 0.0, 5.0),
+    |t| stop(t, true),
+);
+
+fn change(trial: &Trial) -> Finding {
+    let changes: Vec<u32> = trial
+        .events()
+        .filter_map(|e| if let EventKind::ToolChange(number) = e.kind { Some(number) } else { None })
+        .collect();
+    let Some(cut) = trial.cuts().last() else { return Finding::wrong("no cut with the second tool") };
+    let spindle = format!("spindle {} rev/min", cut.spindle);
+    match changes.as_slice() {
+        [2] if cut.tool == 2 => {
+            let length = if cut.length_offset {
+                "tool length taken in"
+            } else {
+                "tool length is the control's affair"
+            };
+            Finding::right(format!("tool 2, {spindle}, {length}"))
+        }
+        [] if stops(trial) > 0 => Finding::expressed(format!("a stop to change by hand, {spindle}")),
+        other => Finding::wrong(format!("changes to {other:?}, cuts with tool {}", cut.tool)),
+    }
+}
+
+fn stops(trial: &Trial) -> usize {
+    trial.events().filter(|e| matches!(e.kind, EventKind::Stop { .. })).count()
+}
+
+fn work_offset(trial: &Trial) -> Finding {
+    match trial.cuts().map(|m| m.work_offset).last() {
+        Some(0) | None => Finding::expressed("left to what is active on the control"),
+        Some(n) => Finding::right(format!("work offset {n} is selected")),
+    }
+}
+
+fn coolant(trial: &Trial) -> Finding {
+    let states: Vec<bool> = trial.cuts().map(|m: &TraceMove| m.coolant.flood).collect();
+    match states.as_slice() {
+        [true, false] => Finding::right("on in the first cut, off in the second"),
+        [false, false] => Finding::expressed("the control switches no coolant"),
+        other => Finding::wrong(format!("flood in the cuts: {other:?}")),
+    }
+}
+
+fn stop(trial: &Trial, wanted: bool) -> Finding {
+    let kinds: Vec<bool> = trial
+        .events()
+        .filter_map(|e| if let EventKind::Stop { optional } = e.kind { Some(optional) } else { None })
+        .collect();
+    match kinds.as_slice() {
+        [only] if *only == wanted => Finding::right("the machine stops once"),
+        [] if wanted => Finding::expressed("the control has no optional stop"),
+        [_] => Finding::expressed("the machine stops, but not in this way"),
+        other => Finding::wrong(format!("the machine stops {} times", other.len())),
+    }
+}

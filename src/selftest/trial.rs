@@ -1,0 +1,110 @@
+//! A program on its way through a post: as far as it comes.
+
+use super::sheet::Sheet;
+use crate::diag::{Diagnostic, Severity, Sink};
+use crate::ir::{Machine, Rotary};
+use crate::lower;
+use crate::post::{self, Dialect};
+use crate::readback::{self, EventKind, MachineSetup, Trace, TraceEvent, TraceMove};
+use crate::target::TargetProgram;
+use crate::verify::{self, Emitted};
+
+/// What came of a program.
+pub(super) struct Trial {
+    /// Lines of the text, when there is one.
+    pub text: Vec<String>,
+    /// NC lines of the watched records, from 1.
+    watched: Vec<u32>,
+    /// What the control does with the text.
+    pub trace: Trace,
+    /// Whether the program was proven.
+    pub proven: bool,
+    /// All messages.
+    pub messages: Vec<Diagnostic>,
+}
+
+impl Trial {
+    pub fn of(sheet: &Sheet, dialect: &Dialect) -> Trial {
+        let mut sink = Sink::default();
+        let made = make(sheet, dialect, &mut sink);
+        let Some((target, emitted, rotary)) = made else {
+            let (text, watched, trace) = (Vec::new(), Vec::new(), Trace::default());
+            return Trial { text, watched, trace, proven: false, messages: sink.into_items() };
+        };
+        let setup = MachineSetup { rotary, ..MachineSetup::default() };
+        let trace = readback::run(emitted.text.as_bytes(), dialect.control(), &setup).unwrap_or_default();
+        let text = emitted.text.lines().map(str::to_owned).collect();
+        let watched = watched_lines(&target, &emitted, sheet.watched);
+        let proven = verify::prove(&sheet.cl, &target, emitted, dialect.control(), &mut sink).is_some();
+        Trial { text, watched, trace, proven, messages: sink.into_items() }
+    }
+
+    /// The watched lines.
+    pub fn lines(&self) -> Vec<String> {
+        let line = |n: &u32| self.text.get((*n as usize).checked_sub(1)?).cloned();
+        self.watched.iter().filter_map(line).collect()
+    }
+    /// What the machine does in the watched lines.
+    pub fn events(&self) -> impl Iterator<Item = &TraceEvent> {
+        self.trace.events.iter().filter(|e| self.watched.binary_search(&e.line).is_ok())
+    }
+    /// Moves in the watched lines.
+    pub fn moves(&self) -> impl Iterator<Item = &TraceMove> {
+        self.events().filter_map(|e| if let EventKind::Move(cut) = &e.kind { Some(cut) } else { None })
+    }
+    /// Moves at feed in the watched lines.
+    pub fn cuts(&self) -> impl Iterator<Item = &TraceMove> {
+        self.moves().filter(|m| !m.rapid)
+    }
+    /// Dwells in the watched lines, s.
+    pub fn dwells(&self) -> Vec<f64> {
+        let dwell = |e: &TraceEvent| if let EventKind::Dwell(s) = e.kind { Some(s) } else { None };
+        self.events().filter_map(dwell).collect()
+    }
+    /// The errors.
+    pub fn errors(&self) -> impl Iterator<Item = &Diagnostic> {
+        self.messages.iter().filter(|d| d.severity == Severity::Error)
+    }
+}
+
+fn make(
+    sheet: &Sheet,
+    dialect: &Dialect,
+    sink: &mut Sink,
+) -> Option<(TargetProgram, Emitted, Option<readback::Rotary>)> {
+    let machine = Machine {
+        post: dialect.name().to_owned(),
+        rotary: sheet.rotary.then_some(Rotary { letter: None, reversed: false }),
+        options: Vec::new(),
+        origin: sheet.cl.records.first()?.origin,
+    };
+    let capabilities = match dialect.capabilities(sheet.cl.units, Some(&machine)) {
+        Ok(capabilities) => capabilities,
+        Err(error) => {
+            sink.push(error);
+            return None;
+        }
+    };
+    let target = lower::lower(&sheet.cl, &capabilities, sink)?;
+    match post::write(dialect, &target, &sheet.cl.origins) {
+        Ok(written) => {
+            let rotary = target.capabilities.rotary;
+            let rotary = rotary.map(|r| readback::Rotary { letter: r.letter, reversed: r.reversed });
+            Some((target, Emitted { text: written.text, lines: written.lines }, rotary))
+        }
+        Err(errors) => {
+            errors.into_iter().for_each(|e| sink.push(e));
+            None
+        }
+    }
+}
+
+/// The lines of all records from `first` on, in order.
+fn watched_lines(target: &TargetProgram, emitted: &Emitted, first: usize) -> Vec<u32> {
+    let blocks = target.blocks.iter().zip(&emitted.lines);
+    let watched = blocks.filter(|(b, _)| b.record.is_some_and(|r| r as usize >= first));
+    let mut lines: Vec<u32> = watched.flat_map(|(_, &(from, to))| from..to).collect();
+    lines.sort_unstable();
+    lines.dedup();
+    lines
+}
