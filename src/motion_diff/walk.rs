@@ -12,6 +12,9 @@ use crate::geom::Point3;
 const LONGER: f64 = 1.05;
 /// … and beyond that, in tolerances.
 const SLACK: f64 = 20.0;
+/// How much farther a match is looked for, in distances from the nearest point so far: a detour that leads so far off
+/// is about that long.
+const DETOUR: f64 = 4.0;
 
 /// A point of a path: on the chord that ends at corner `chord`, `x` of the way along it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,7 +47,7 @@ fn along(path: &Path<'_>, other: &Path<'_>, tolerance: f64) -> Vec<Match> {
     }
     for (index, point) in path.points.iter().enumerate() {
         let step = index.checked_sub(1).map_or(0.0, |before| length_between(path, before, index));
-        let found = next(*point, other, here, LONGER * step + SLACK * tolerance, tolerance);
+        let found = find(*point, other, here, LONGER * step + SLACK * tolerance, tolerance);
         here = (found.chord.max(1), found.x);
         matches.push(found);
     }
@@ -53,6 +56,16 @@ fn along(path: &Path<'_>, other: &Path<'_>, tolerance: f64) -> Vec<Match> {
 
 fn length_between(path: &Path<'_>, a: usize, b: usize) -> f64 {
     path.at.get(b).zip(path.at.get(a)).map_or(0.0, |(b, a)| b - a)
+}
+
+/// The match of a point: near by, or else behind a detour of the other path.
+fn find(point: Point3, other: &Path<'_>, here: (usize, f64), window: f64, tolerance: f64) -> Match {
+    let near = next(point, other, here, window, tolerance);
+    if near.distance <= tolerance {
+        return near;
+    }
+    let behind = next(point, other, here, window + DETOUR * near.distance, tolerance);
+    if behind.distance <= tolerance { behind } else { near }
 }
 
 /// The first point from `here` on, within `window` mm of path, at which the distance is least and within the

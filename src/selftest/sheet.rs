@@ -100,7 +100,16 @@ impl Sheet {
     pub fn cycle(self, kind: CycleKind, retract: RetractTo) -> Sheet {
         let dwell = matches!(kind, CycleKind::Dwell | CycleKind::BoreDwell).then_some(0.25);
         let feed = Feed::PerMinute(120.0);
-        let cycle = Cycle { kind, depth: 6.0, clearance: 2.0, retract, peck: Some(2.5), dwell, feed };
+        let cycle = Cycle {
+            kind,
+            depth: 6.0,
+            clearance: 2.0,
+            retract,
+            peck: Some(2.5),
+            first_peck: None,
+            dwell,
+            feed,
+        };
         self.add(RecordKind::BeginCycle(Box::new(cycle)))
             .add(RecordKind::Hole(Point3::new(10.0, 0.0, 0.0)))
             .add(RecordKind::Hole(Point3::new(20.0, 0.0, 0.0)))

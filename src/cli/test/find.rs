@@ -5,12 +5,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::super::disk::{LARGEST, reason};
+use crate::clfile;
 use crate::diag::Diagnostic;
 use crate::diag::codes::command as codes;
 use crate::golden::names;
 
-/// Extensions of programs, in lower case.
-const PROGRAMS: &[&str] = &["apt"];
+/// Extension of programs in the language; CL files are known by theirs.
+const PROGRAM: &str = "apt";
 /// Directories that hold no programs.
 const LEFT_OUT: &[&str] = &["target", "node_modules"];
 /// Directories below one another at most.
@@ -70,7 +71,9 @@ pub fn find(start: &Path) -> Result<Found, Diagnostic> {
     }
     let is_program = |path: &Path| match only {
         Some(only) => path.file_name() == only.file_name(),
-        None => extension(path).is_some_and(|e| PROGRAMS.contains(&e.as_str())),
+        None => {
+            extension(path).is_some_and(|e| e == PROGRAM) || clfile::recognise(&file_name(path), "").is_some()
+        }
     };
     for file in files.iter().filter(|f| is_program(f)) {
         let path = name(file);

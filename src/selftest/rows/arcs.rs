@@ -145,6 +145,8 @@ fn curve(trial: &Trial) -> Finding {
     match (curves, sweeps(trial).len()) {
         (0, 0) => Finding::expressed(format!("{} lines", trial.cuts().count())),
         (0, arcs) => Finding::expressed(format!("{arcs} arcs")),
-        (curves, _) => Finding::right(format!("{curves} curves")),
+        (curves, _) => {
+            Finding::right(format!("NURBS in {curves} piece{}", if curves == 1 { "" } else { "s" }))
+        }
     }
 }
