@@ -18,9 +18,29 @@ FINI
 /// A post whose words do not say what it means: its programs fail their proof.
 const LIE: &str = "inherits = \"linuxcnc\"\n[spindle]\nclockwise = \"M4\"\ncounter-clockwise = \"M3\"\n";
 
+/// A program whose cuts are compared with a contour.
+const CAM: &str = "\
+UNITS/ MM
+F1 = FOLLOW/ TRANSL, ROLLER, 8
+M1 = MOTION/ DWELL, 30, RISE, 120, 20, MODSIN, DWELL, 60, RETURN, 120, 20, MODSIN, DWELL, 30
+C1 = CAM/ PLATE, BASE, 20, FOLLOW, F1, MOTION, M1
+T1 = CUTTER/ FLAT, 16, NUMBER, 1
+LOADTL/ T1
+SPINDL/ 1200, CLW
+FEDRAT/ 300
+INTOL/ 0.01
+OUTTOL/ 0.01
+P1 = PROFIL/ C1, LINEAR, DEPTH, 5
+FINI
+";
+
 fn scratch(name: &str) -> Scratch {
     let scratch = Scratch::new(name);
-    scratch.write("points.apt", POINTS).write("broken.apt", "GOTO/ 1 2\n").write("lie.post.toml", LIE);
+    scratch
+        .write("cam.apt", CAM)
+        .write("points.apt", POINTS)
+        .write("broken.apt", "GOTO/ 1 2\n")
+        .write("lie.post.toml", LIE);
     scratch
 }
 
@@ -35,7 +55,7 @@ fn every_exit_status_has_its_reason() {
         (&["build", "points.apt", "--post", "fanuc", "--no-such-option"], 2, "--no-such-option"),
         (&["diff", "a.nc", "other.nc", "--post", "fanuc"], 3, ""),
         (&["test", "points.apt"], 2, "E0956"),
-        (&["build", "points.apt", "--post", "lie.post.toml"], 4, "E08"),
+        (&["build", "cam.apt", "--post", "lie.post.toml"], 4, "E08"),
         (&["post", "selftest", "lie.post.toml"], 4, ""),
         (&["post", "selftest", "linuxcnc"], 0, ""),
     ];
@@ -50,13 +70,16 @@ fn every_exit_status_has_its_reason() {
 fn a_program_that_fails_its_proof_writes_nothing_and_keeps_old_files() {
     let scratch = scratch("exit-proof");
     scratch.write("old.nc", "old").write("old.json", "old");
-    let args = ["build", "points.apt", "--post", "lie.post.toml", "-o", "old.nc"];
+    let args = ["build", "cam.apt", "--post", "lie.post.toml", "-o", "old.nc"];
     let more = ["--report", "old.json", "--source-map", "map.json"];
     let output = scratch.run(&args.iter().chain(&more).copied().collect::<Vec<_>>());
     assert_eq!(code(&output), 4, "{}", stderr(&output));
     assert!(stderr(&output).contains("nothing was written"), "{}", stderr(&output));
     assert_eq!((scratch.read("old.nc"), scratch.read("old.json")), ("old".to_owned(), "old".to_owned()));
-    assert_eq!(scratch.names(), ["broken.apt", "lie.post.toml", "old.json", "old.nc", "points.apt"]);
+    assert_eq!(
+        scratch.names(),
+        ["broken.apt", "cam.apt", "lie.post.toml", "old.json", "old.nc", "points.apt"]
+    );
     assert!(output.stdout.is_empty());
 }
 
@@ -74,7 +97,7 @@ fn one_bad_post_of_two_writes_neither() {
         "nc",
     ]);
     assert_eq!(code(&output), 4);
-    assert_eq!(scratch.names(), ["broken.apt", "lie.post.toml", "points.apt"]);
+    assert_eq!(scratch.names(), ["broken.apt", "cam.apt", "lie.post.toml", "points.apt"]);
 }
 
 #[test]
@@ -92,7 +115,11 @@ fn what_cannot_be_written_exits_2_and_leaves_nothing() {
         let output = scratch.run(args);
         assert_eq!(code(&output), 2, "{args:?}: {}", stderr(&output));
         assert!(stderr(&output).contains("E0905"), "{args:?}: {}", stderr(&output));
-        assert_eq!(scratch.names(), ["broken.apt", "file", "lie.post.toml", "points.apt"], "{args:?}");
+        assert_eq!(
+            scratch.names(),
+            ["broken.apt", "cam.apt", "file", "lie.post.toml", "points.apt"],
+            "{args:?}"
+        );
     }
 }
 

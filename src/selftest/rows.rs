@@ -55,6 +55,7 @@ pub(super) const ROWS: &[Try] = &[
     feeds::ROTARY,
     feeds::RAPID,
     tools::CHANGE,
+    tools::SPINDLE,
     tools::WORK_OFFSET,
     tools::COOLANT,
     tools::STOP,

@@ -5,7 +5,7 @@ use super::super::sheet::Sheet;
 use super::super::trial::Trial;
 use super::{Try, row};
 use crate::cl::RecordKind;
-use crate::ir::Coolant;
+use crate::ir::{Coolant, Spindle};
 use crate::readback::{EventKind, TraceMove};
 
 pub(in super::super) const CHANGE: Try = row(
@@ -21,6 +21,16 @@ pub(in super::super) const CHANGE: Try = row(
             .line(10.0, 0.0, 5.0)
     },
     change,
+);
+pub(in super::super) const SPINDLE: Try = row(
+    "tools",
+    "spindle clockwise, then counter-clockwise",
+    || {
+        let first = Sheet::mm().line(10.0, 0.0, 5.0).add(RecordKind::Spindle(Spindle::Off));
+        let other = Spindle::On { rpm: 500.0, clockwise: false };
+        first.add(RecordKind::Spindle(other)).line(20.0, 0.0, 5.0)
+    },
+    spindle,
 );
 pub(in super::super) const WORK_OFFSET: Try =
     row("tools", "work offset", || Sheet::mm().line(10.0, 0.0, 5.0), work_offset);
@@ -69,6 +79,18 @@ fn change(trial: &Trial) -> Finding {
 
 fn stops(trial: &Trial) -> usize {
     trial.events().filter(|e| matches!(e.kind, EventKind::Stop { .. })).count()
+}
+
+fn spindle(trial: &Trial) -> Finding {
+    let speeds: Vec<f64> = trial.cuts().map(|m| m.spindle).collect();
+    match speeds.as_slice() {
+        [first, second] if *first == 1000.0 && *second == -500.0 => {
+            Finding::right("1000 rev/min clockwise, 500 counter-clockwise")
+        }
+        other => Finding::wrong(format!(
+            "turns at {other:?} rev/min (clockwise positive) instead of 1000 and -500"
+        )),
+    }
 }
 
 fn work_offset(trial: &Trial) -> Finding {
