@@ -37,7 +37,7 @@ impl Finding {
 /// Tries and judges a row.
 pub(super) fn row(row: &Try, dialect: &Dialect) -> Row {
     let sheet = (row.program)();
-    if sheet.rotary && !dialect.spec().rotary.enabled {
+    if sheet.rotary && !dialect.spec().rotary.enabled.of(sheet.cl.units) {
         return finished(
             row,
             Vec::new(),

@@ -31,11 +31,12 @@ impl Trial {
             let (text, watched, trace) = (Vec::new(), Vec::new(), Trace::default());
             return Trial { text, watched, trace, proven: false, messages: sink.into_items() };
         };
+        let control = dialect.control_with(&target.capabilities.options);
         let setup = MachineSetup { rotary, ..MachineSetup::default() };
-        let trace = readback::run(emitted.text.as_bytes(), dialect.control(), &setup).unwrap_or_default();
+        let trace = readback::run(emitted.text.as_bytes(), control, &setup).unwrap_or_default();
         let text = emitted.text.lines().map(str::to_owned).collect();
         let watched = watched_lines(&target, &emitted, sheet.watched);
-        let proven = verify::prove(&sheet.cl, &target, emitted, dialect.control(), &mut sink).is_some();
+        let proven = verify::prove(&sheet.cl, &target, emitted, control, &mut sink).is_some();
         Trial { text, watched, trace, proven, messages: sink.into_items() }
     }
 
