@@ -57,7 +57,7 @@ fn every_exit_status_has_its_reason() {
         (&["test", "points.apt"], 2, "E0956"),
         (&["build", "cam.apt", "--post", "lie.post.toml"], 4, "E08"),
         (&["post", "selftest", "lie.post.toml"], 4, ""),
-        (&["post", "selftest", "linuxcnc"], 0, ""),
+        (&["post", "selftest", "marlin"], 0, ""),
     ];
     for (args, status, part) in cases {
         let output = scratch.run(args);

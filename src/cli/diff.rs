@@ -56,7 +56,7 @@ fn control(args: &DiffArgs, messages: Messages) -> Result<Result<String, Status>
     };
     let mut sources = SourceMap::default();
     match post::load(&name, &Disk::for_main(Path::new(&name)), &mut sources) {
-        Ok(dialect) => Ok(Ok(dialect.control().to_owned())),
+        Ok(dialect) => Ok(Ok(dialect.control_with(&dialect.spec().options).to_owned())),
         Err(errors) => {
             messages.show(&errors, &sources);
             Ok(Err(build::status_of(&errors)))

@@ -81,6 +81,7 @@ fn end(trial: &Trial) -> Finding {
     let ends = trial.trace.events.iter().filter(|e| matches!(e.kind, EventKind::End)).count();
     match (ends, trial.trace.events.last().map(|e| &e.kind)) {
         (1, Some(EventKind::End)) => Finding::right("the program ends once, at its end"),
+        (0, _) => Finding::expressed("the control has no end of program: the file just ends"),
         (n, _) => Finding::wrong(format!("the program ends {n} times")),
     }
 }
