@@ -77,8 +77,11 @@ fn files(from: &str) -> MemoryFiles {
     MemoryFiles(FILES.iter().map(|(name, text)| ((*name).to_owned(), filled(text))).collect())
 }
 
+/// Names and texts of files.
+type Texts = Vec<(String, String)>;
+
 /// The programs that the project's tests accept.
-fn golden_files(files: &MemoryFiles) -> Result<Vec<(String, String)>, (Vec<Diagnostic>, SourceMap)> {
+fn golden_files(files: &MemoryFiles) -> Result<Texts, (Vec<Diagnostic>, SourceMap)> {
     let mut sources = SourceMap::default();
     let text = files.0.get(SIDECAR).map_or("", String::as_str);
     let sidecar = match sidecar::parse(SIDECAR, text, &mut sources) {

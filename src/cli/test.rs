@@ -203,8 +203,8 @@ fn accept(run: &Run) -> Result<(), Diagnostic> {
         _ => None,
     };
     output::write_all(&run.outcomes.iter().filter_map(product).collect::<Vec<_>>())?;
-    let orphans = run.outcomes.iter().filter(|o| matches!(o.verdict, Verdict::Orphan));
-    orphans.map(|o| output::remove(Path::new(&o.golden))).collect()
+    let mut orphans = run.outcomes.iter().filter(|o| matches!(o.verdict, Verdict::Orphan));
+    orphans.try_for_each(|o| output::remove(Path::new(&o.golden)))
 }
 
 fn nothing(args: &TestArgs) -> Diagnostic {

@@ -127,7 +127,7 @@ pub(super) fn difference(paths: &[Path<'_>; 2], walked: &Walked, tolerance: f64)
     let [of_a, of_b] = &walked.matches;
     let differing = [moves(a, of_a, tolerance), moves(b, of_b, tolerance)];
     let largest = of_a.iter().chain(of_b).map(|m| m.distance).fold(0.0, f64::max);
-    if !(largest > tolerance) {
+    if largest <= tolerance {
         return None;
     }
     // The earlier of both first moves that differ, along the paths.

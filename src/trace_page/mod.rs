@@ -21,6 +21,13 @@ struct Link<'a> {
     n: &'a [(u32, u32)],
 }
 
+impl Link<'_> {
+    fn of(record: &Record) -> Link<'_> {
+        let lines = core::iter::once(&record.source).chain(&record.calls);
+        Link { s: lines.map(|l| (l.file, l.first, l.last)).collect(), n: &record.nc }
+    }
+}
+
 /// The page of one output; `None` when it was not proven.
 #[must_use]
 pub fn page(build: &Build, output: &Output) -> Option<String> {
@@ -85,12 +92,7 @@ fn shortened(text: &str) -> String {
 
 /// The links as JSON that cannot end its script element.
 fn data(links: &Links) -> String {
-    let link = |record: &Record| -> (Vec<(usize, usize, usize)>, Vec<(u32, u32)>) {
-        let lines = core::iter::once(&record.source).chain(&record.calls);
-        (lines.map(|l| (l.file, l.first, l.last)).collect(), record.nc.clone())
-    };
-    let links: Vec<_> = links.records.iter().map(link).collect();
-    let links: Vec<Link<'_>> = links.iter().map(|(s, n)| Link { s: s.clone(), n }).collect();
+    let links: Vec<Link<'_>> = links.records.iter().map(Link::of).collect();
     serde_json::to_string(&links).unwrap_or_default().replace('<', "\\u003c")
 }
 
