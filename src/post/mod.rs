@@ -24,6 +24,7 @@ mod motion;
 pub mod number;
 pub mod pattern;
 pub mod schema;
+mod spec;
 mod table;
 pub mod template;
 #[cfg(test)]

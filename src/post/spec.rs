@@ -1,0 +1,412 @@
+//! The keys of a resolved post file, in types; [`super::schema`] documents every key.
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+
+use super::comment::Comments;
+use super::number::Point;
+use crate::units::LengthUnit;
+
+/// A value that may differ between millimetre and inch programs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(untagged)]
+pub enum ByUnit<T> {
+    /// The same for both.
+    Same(T),
+    /// One for each.
+    Each {
+        /// In millimetre programs.
+        mm: T,
+        /// In inch programs.
+        inch: T,
+    },
+}
+
+impl<T: Clone> ByUnit<T> {
+    /// The value for programs in `unit`.
+    #[must_use]
+    pub fn of(&self, unit: LengthUnit) -> T {
+        match (self, unit) {
+            (ByUnit::Same(value), _)
+            | (ByUnit::Each { mm: value, .. }, LengthUnit::Millimetre)
+            | (ByUnit::Each { inch: value, .. }, LengthUnit::Inch) => value.clone(),
+        }
+    }
+}
+
+/// Who a post is.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)] // The schema documents every key.
+pub struct Post {
+    pub title: String,
+    pub extension: String,
+    pub control: String,
+    #[serde(default)]
+    pub control_when: BTreeMap<String, String>,
+    pub confidence: String,
+    pub basis: String,
+    #[serde(default, rename = "abstract")]
+    pub is_abstract: bool,
+}
+
+/// A resolved post file; the keys are documented in [`super::schema`].
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct Spec {
+    #[serde(default)]
+    pub inherits: Option<String>,
+    pub post: Post,
+    pub file: File,
+    pub line: Line,
+    pub numbering: Numbering,
+    pub numbers: Numbers,
+    pub words: BTreeMap<String, Word>,
+    pub modal: Modal,
+    pub codes: Codes,
+    pub patterns: Patterns,
+    #[serde(default)]
+    pub groups: BTreeMap<String, Group>,
+    #[serde(default)]
+    pub safe_start: Vec<Vec<String>>,
+    pub arcs: Arcs,
+    pub feed: Feed,
+    pub rotary: Rotary,
+    pub dwell: Dwell,
+    pub cycle_dwell: CycleDwell,
+    #[serde(default)]
+    pub cycles: BTreeMap<String, Cycle>,
+    pub spindle: Spindle,
+    pub coolant: Coolant,
+    pub stops: Stops,
+    pub comments: Comments,
+    pub path_control: PathControl,
+    pub nurbs: Nurbs,
+    #[serde(default)]
+    pub limits: Limits,
+    pub tool_change: ToolChange,
+    pub templates: Templates,
+    #[serde(default)]
+    pub options: BTreeMap<String, String>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct File {
+    pub newline: String,
+    pub number: u32,
+    pub name_max: usize,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct Line {
+    pub max_length: usize,
+    pub count_comments: bool,
+    pub count_spaces: bool,
+    pub separator: String,
+    pub continuation: String,
+}
+
+/// Which lines carry a number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub enum NumberingMode {
+    None,
+    Blocks,
+    Lines,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct Numbering {
+    pub mode: NumberingMode,
+    pub prefix: String,
+    pub start: u32,
+    pub step: u32,
+    pub max: u32,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct Numbers {
+    pub linear_decimals: ByUnit<u8>,
+    pub point: Point,
+    pub trailing_zeros: bool,
+    pub bare_fraction: bool,
+    pub plus: bool,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct Word {
+    pub prefix: String,
+    #[serde(default)]
+    pub suffix: Option<ByUnit<String>>,
+    #[serde(default)]
+    pub decimals: Option<ByUnit<u8>>,
+    #[serde(default)]
+    pub max: Option<ByUnit<f64>>,
+    #[serde(default)]
+    pub point: Option<Point>,
+    #[serde(default)]
+    pub trailing_zeros: Option<bool>,
+    #[serde(default)]
+    pub bare_fraction: Option<bool>,
+    #[serde(default)]
+    pub plus: Option<bool>,
+    #[serde(default)]
+    pub modal: Option<bool>,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct Modal {
+    pub motion: bool,
+    pub axes: bool,
+    pub arc_ends: bool,
+    pub whole_points: bool,
+    pub feed: bool,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct Codes {
+    pub rapid: String,
+    pub line: String,
+    pub arc_cw: String,
+    pub arc_ccw: String,
+    #[serde(default)]
+    pub direction_cw: String,
+    #[serde(default)]
+    pub direction_ccw: String,
+    pub plane_xy: String,
+    pub plane_zx: String,
+    pub plane_yz: String,
+    pub per_minute: String,
+    pub per_revolution: String,
+    pub inverse_time: String,
+    #[serde(default)]
+    pub insert: String,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct Patterns {
+    pub rapid: Vec<String>,
+    pub line: Vec<String>,
+    pub arc: Vec<String>,
+    #[serde(default)]
+    pub helix: Vec<String>,
+    #[serde(default)]
+    pub hole: Vec<String>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct Group {
+    #[serde(default)]
+    pub codes: Vec<String>,
+    pub start: ByUnit<String>,
+}
+
+/// Which end words a full circle carries.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub enum FullCircleWords {
+    Bare,
+    OneEndWord,
+    EndWords,
+    Split,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct Arcs {
+    pub enabled: bool,
+    pub planes: Vec<String>,
+    pub zero_offsets: String,
+    pub signed_radius: bool,
+    pub full_circle: FullCircleWords,
+    pub split: u8,
+    pub max_sweep: f64,
+    pub min_radius: f64,
+    pub max_radius: f64,
+    pub radius_tolerance: f64,
+    pub helix: bool,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct Feed {
+    pub scale: ByUnit<f64>,
+    pub rapid: f64,
+    pub per_revolution: bool,
+    pub inverse_time: bool,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct Rotary {
+    pub enabled: ByUnit<bool>,
+    pub letter: String,
+    pub letters: String,
+    pub feed: String,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct Dwell {
+    pub block: Vec<String>,
+    pub unit: DwellUnit,
+    pub decimals: u8,
+    pub max: f64,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct CycleDwell {
+    pub unit: DwellUnit,
+    pub decimals: u8,
+    pub max: f64,
+}
+
+/// What a dwell's number counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[allow(missing_docs)]
+pub enum DwellUnit {
+    #[serde(rename = "s")]
+    Seconds,
+    #[serde(rename = "ms")]
+    Milliseconds,
+    #[serde(rename = "0.01s")]
+    Hundredths,
+    /// A setting of the machine that the option `DWELL` declares.
+    #[serde(rename = "option")]
+    Declared,
+}
+
+/// A drilling cycle that the control keeps.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct Cycle {
+    #[serde(default)]
+    pub before: String,
+    #[serde(default)]
+    pub call: String,
+    #[serde(default)]
+    pub words: String,
+    #[serde(default)]
+    pub end: String,
+    #[serde(default)]
+    pub dwell: bool,
+    #[serde(default = "yes")]
+    pub enabled: bool,
+}
+
+fn yes() -> bool {
+    true
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct Spindle {
+    pub clockwise: String,
+    pub counter_clockwise: String,
+    pub on: Vec<String>,
+    #[serde(default)]
+    pub after_tool_change: Vec<String>,
+    pub off: String,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct Coolant {
+    pub flood: String,
+    pub mist: String,
+    pub off: String,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct Stops {
+    pub stop: String,
+    pub optional: String,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct PathControl {
+    pub exact: Vec<String>,
+    pub tolerance: Vec<String>,
+    pub share: f64,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct Nurbs {
+    pub knots: String,
+    pub begin: Vec<String>,
+    pub point: Vec<String>,
+    pub rest: Vec<String>,
+    pub end: Vec<String>,
+    pub weight_decimals: u8,
+    pub knot_decimals: u8,
+    pub max_order: u8,
+}
+
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct Limits {
+    #[serde(default)]
+    pub x: Option<[f64; 2]>,
+    #[serde(default)]
+    pub y: Option<[f64; 2]>,
+    #[serde(default)]
+    pub z: Option<[f64; 2]>,
+    #[serde(default)]
+    pub spindle: Option<[f64; 2]>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct ToolChange {
+    pub with_first_z: String,
+    pub order: Vec<String>,
+    pub blocks: BTreeMap<String, String>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct Templates {
+    pub header: String,
+    pub footer: String,
+    pub operation: String,
+}
