@@ -164,12 +164,9 @@ impl Writer<'_> {
 
     #[inline]
     fn slot(&mut self, slot: Slot, value: i64) {
-        if self.out.len() > self.words_start {
-            self.out.extend_from_slice(&self.table.separator);
-        }
         let format = &self.table.words[slot as usize];
-        self.out.extend_from_slice(&format.prefix);
-        number::push(&mut self.out, value, &format.style);
+        let lead = if self.out.len() > self.words_start { &format.spaced } else { &format.prefix };
+        number::push_word(&mut self.out, lead, value, &format.style);
         if !format.suffix.is_empty() {
             self.out.extend_from_slice(&format.suffix);
         }
@@ -338,12 +335,9 @@ impl Writer<'_> {
         if same && mode != INVERSE_TIME && self.table.feeds[mode].modal {
             return;
         }
-        if self.out.len() > self.words_start {
-            self.out.extend_from_slice(&self.table.separator);
-        }
         let format = &self.table.feeds[mode];
-        self.out.extend_from_slice(&format.prefix);
-        number::push(&mut self.out, value, &format.style);
+        let lead = if self.out.len() > self.words_start { &format.spaced } else { &format.prefix };
+        number::push_word(&mut self.out, lead, value, &format.style);
         self.out.extend_from_slice(&format.suffix);
         self.state.feed = Some(value);
         self.state.mode = Some(mode);

@@ -33,11 +33,19 @@ pub struct Style {
     pub plus: bool,
 }
 
-/// Digits of the largest number, with sign and point.
-const LONGEST: usize = 48;
+/// Digits of the largest number, with sign and point, and room for what stands before it.
+const LONGEST: usize = 48 + LEAD;
+/// Longest text that is put before a number without a step of its own.
+const LEAD: usize = 32;
 
 /// Appends `steps · 10^-style.decimals`.
 pub fn push(out: &mut Vec<u8>, steps: i64, style: &Style) {
+    push_word(out, &[], steps, style);
+}
+
+/// Appends `lead` and the number in one go: a word.
+#[inline]
+pub fn push_word(out: &mut Vec<u8>, lead: &[u8], steps: i64, style: &Style) {
     let mut buffer = [0u8; LONGEST];
     let mut at = LONGEST;
     let mut rest = steps.unsigned_abs();
@@ -48,15 +56,23 @@ pub fn push(out: &mut Vec<u8>, steps: i64, style: &Style) {
     if rest > 0 || at == LONGEST || !style.bare_fraction || buffer[at] != b'.' || at + 1 == LONGEST {
         at = push_digits(&mut buffer, at, rest);
     }
-    if steps < 0 {
-        out.push(b'-');
-    } else if style.plus {
-        out.push(b'+');
+    if steps < 0 || style.plus {
+        at -= 1;
+        buffer[at] = if steps < 0 { b'-' } else { b'+' };
+    }
+    if lead.len() <= LEAD {
+        for &byte in lead.iter().rev() {
+            at -= 1;
+            buffer[at] = byte;
+        }
+    } else {
+        out.extend_from_slice(lead);
     }
     out.extend_from_slice(&buffer[at..]);
 }
 
 /// Writes the fraction's digits and the point in front of `at`; gives the whole part and the new front.
+#[inline]
 fn push_fraction(
     buffer: &mut [u8; LONGEST],
     mut at: usize,
@@ -90,6 +106,7 @@ fn push_fraction(
 }
 
 /// Writes an integer's digits in front of `at`; at least one.
+#[inline]
 fn push_digits(buffer: &mut [u8; LONGEST], mut at: usize, mut rest: u64) -> usize {
     loop {
         at -= 1;

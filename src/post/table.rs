@@ -10,6 +10,8 @@ use crate::units::LengthUnit;
 #[derive(Debug, Clone, Default)]
 pub(super) struct WordFormat {
     pub prefix: Box<[u8]>,
+    /// The prefix after the separator of words.
+    pub spaced: Box<[u8]>,
     pub suffix: Box<[u8]>,
     pub style: Style,
     pub modal: bool,
@@ -74,6 +76,8 @@ impl MotionTable {
             let rotary_word = &mut words[Slot::Rotary as usize];
             if rotary_word.prefix.is_empty() {
                 rotary_word.prefix = rotary.letter.to_string().into_bytes().into();
+                let spaced = format!("{}{}", spec.line.separator, rotary.letter);
+                rotary_word.spaced = spaced.into_bytes().into();
             }
         }
         let codes = &spec.codes;
@@ -137,6 +141,7 @@ fn axis_modal(spec: &Spec, slot: Slot) -> bool {
 pub(super) fn word(spec: &Spec, name: &str, modal: bool, unit: LengthUnit) -> WordFormat {
     spec.words.get(name).map_or_else(WordFormat::default, |word| WordFormat {
         prefix: word.prefix.as_bytes().into(),
+        spaced: format!("{}{}", spec.line.separator, word.prefix).into_bytes().into(),
         suffix: word.suffix.as_ref().map_or_else(String::new, |s| s.of(unit)).into_bytes().into(),
         style: spec.style(name, word, unit),
         modal: word.modal.unwrap_or(modal),
