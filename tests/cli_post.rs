@@ -91,14 +91,6 @@ fn check_finds_what_is_wrong_and_says_where() {
     assert_eq!(check(&["nothing.post.toml"]).0, 2);
 }
 
-/// Whether there is an interpreter that could prove a program of this post.
-fn is_read(post: &str) -> bool {
-    let mut sources = partwright::source::SourceMap::default();
-    let files = partwright::source::MemoryFiles::default();
-    let dialect = partwright::post::load(post, &files, &mut sources).expect("built in");
-    partwright::readback::needs(dialect.control()).is_some()
-}
-
 #[test]
 fn a_new_post_passes_its_check_and_builds() {
     let scratch = Scratch::new("post-new");
@@ -108,10 +100,7 @@ fn a_new_post_passes_its_check_and_builds() {
         let made = scratch.run(&["post", "new", &file, "--from", name]);
         assert_eq!(code(&made), 0, "{}", stderr(&made));
         let check = scratch.run(&["post", "check", &format!("{file}.post.toml"), "--deny", "warnings"]);
-        assert_eq!(code(&check) == 0, is_read(name), "{}", stderr(&check));
-        if !is_read(name) {
-            continue;
-        }
+        assert_eq!(code(&check), 0, "{}", stderr(&check));
         let build = |post: &str| scratch.run(&["build", "points.apt", "-o", "-", "--post", post]);
         let (parent, child) = (build(name), build(&format!("{file}.post.toml")));
         assert_eq!(code(&child), 0, "{}", stderr(&child));

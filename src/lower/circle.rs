@@ -180,7 +180,7 @@ impl Emitter<'_> {
             let (r0, r1) = arc.radii(scale);
             (r0 - r1).abs() * step
         };
-        let good = off <= circle.tolerance && mismatch <= self.capabilities.radius_tolerance;
+        let good = off <= self.left(circle) && mismatch <= self.capabilities.radius_tolerance;
         if good { Ok(arc) } else { Err(Reason::NotOnGrid) }
     }
 
@@ -230,16 +230,21 @@ impl Emitter<'_> {
         Ok(())
     }
 
+    /// What the control's own smoothing leaves of a circle's tolerance, mm.
+    fn left(&self, circle: &Circle) -> f64 {
+        circle.tolerance * (1.0 - self.capabilities.path_tolerance.map_or(0.0, |p| p.share))
+    }
+
     /// Chords within the tolerance; vertices lie on the circle, rounded to the grid.
     fn lines(&mut self, helix: &Helix, circle: &Circle, end: [i64; 3], feed: FeedWord, reason: &Reason) {
         let step = self.capabilities.grid.linear_step();
         // Half the diagonal of a grid cell is lost by rounding.
         let rounding = 0.5 * step * 3.0_f64.sqrt();
-        let sagitta = circle.tolerance - rounding;
+        let sagitta = self.left(circle) - rounding;
         if sagitta < 0.1 * rounding {
             let message = format!(
                 "lines on a grid of {step} mm cannot follow an arc within {} mm; {}",
-                circle.tolerance,
+                self.left(circle),
                 reason.text(&self.capabilities.name)
             );
             return self.complain(&codes::lowering::CANNOT_FIT, message);
