@@ -36,7 +36,9 @@ fn every_built_in_post_proves_the_cam_in_both_units() {
                 draft.cl.units = INCH;
             }
             let made = made(&draft.cl, post, None);
-            assert!(made.certificate.operations[0].blocks <= 15, "{post}");
+            // Marlin goes by an arc's angle, then straight to its end: two moves a block.
+            let most = if post == "marlin" { 30 } else { 15 };
+            assert!(made.certificate.operations[0].blocks <= most, "{post}");
         }
     }
 }
