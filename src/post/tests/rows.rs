@@ -317,7 +317,7 @@ fn tools_by_name_and_speeds_that_change_alone() {
 fn smoothing_words_carry_the_share_of_the_tolerance() {
     let path = |name: &str| rest(name, &home(name).event(BlockKind::PathTolerance(Some(0.0025))));
     assert_eq!(path("linuxcnc"), ["G64 P0.0025 Q0"]);
-    assert_eq!(path("haas"), ["G187 P3 E0.0025"]);
+    assert_eq!(path("haas"), ["G64", "G187 P3 E0.0025"]);
     assert_eq!(path("sinumerik"), ["CYCLE832(0.0025,112001)"]);
     assert_eq!(path("heidenhain"), ["CYCL DEF 32.0 TOLERANCE", "CYCL DEF 32.1 T0.0025"]);
     for name in ["fanuc", "grbl", "mazak", "mitsubishi", "okuma", "centroid", "marlin", "apt-cl"] {
