@@ -128,3 +128,32 @@ fn a_wrong_line_is_found_in_any_part() {
     assert!(build.outputs.iter().all(|o| o.proven.is_none()));
     assert!(messages(&build).contains("E1004"), "{}", messages(&build));
 }
+
+#[test]
+fn a_program_drills_as_a_cl_file_does() {
+    let frame = |cycle: &str| {
+        format!(
+            "T1 = CUTTER/ FLAT, 8\nLOADTL/ T1\nSPINDL/ 1000\nFEDRAT/ 300\nRAPID\nGOTO/ 0, 0, 20\n{cycle}\n\
+             GOTO/ 10, 0, 0\nGOTO/ 20, 0, 4\nCYCLE/ OFF\nRAPID\nGOTO/ 0, 0, 50\nFINI\n"
+        )
+    };
+    let build = |cycle: &str, post: &str| {
+        let files = MemoryFiles([("holes.apt".to_owned(), frame(cycle))].into());
+        driver::build("holes.apt", &files, &options(&[post], false))
+    };
+    for post in ["linuxcnc", "fanuc", "grbl"] {
+        for cycle in [
+            "CYCLE/ DRILL, FEDTO, 6, RAPTO, 2, RTRCTO, 20, MMPM, 120",
+            "CYCLE/ DEEP, DEPTH, 12, CLEAR, 2, STEP, 4",
+            "CYCLE/ FACE, FEDTO, 1, RAPTO, 2, DWELL, 0.5, MMPR, 0.1",
+            "CYCLE/ BORE, FEDTO, 5, RAPTO, 1",
+        ] {
+            let build = build(cycle, post);
+            assert!(build.outputs[0].proven.is_some(), "{post} {cycle}: {}", messages(&build));
+        }
+    }
+    let tap = build("CYCLE/ TAP, FEDTO, 6, RAPTO, 2", "fanuc");
+    assert!(tap.has_errors() && messages(&tap).contains("pitch"), "{}", messages(&tap));
+    let deep = build("CYCLE/ DEEP, FEDTO, 6, RAPTO, 2", "fanuc");
+    assert!(deep.has_errors() && messages(&deep).contains("peck"), "{}", messages(&deep));
+}

@@ -222,7 +222,7 @@ impl<'t> Reader<'t> {
         if trimmed.is_empty() || trimmed == "%" {
             return;
         }
-        if let Some((word, rest)) = raw_word(trimmed) {
+        if let Some((word, rest)) = raw_word(without_number(trimmed)) {
             return self.raw(word, rest);
         }
         if self.state.continues && trimmed.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c)) {
@@ -417,6 +417,14 @@ impl<'t> Reader<'t> {
         self.units = unit;
         self.state.scale = unit.in_mm();
     }
+}
+
+/// A record without the number of its input line, `N12 ,`.
+fn without_number(text: &str) -> &str {
+    let after =
+        text.strip_prefix(['N', 'n']).map(|rest| rest.trim_start_matches(|c: char| c.is_ascii_digit()));
+    let record = after.and_then(|rest| rest.trim_start().strip_prefix(','));
+    record.filter(|_| text.as_bytes().get(1).is_some_and(u8::is_ascii_digit)).map_or(text, str::trim_start)
 }
 
 fn zero(s: &Statement) -> bool {

@@ -214,10 +214,27 @@ pub enum StepKind {
         /// At rapid.
         rapid: bool,
     },
+    /// `CYCLE`: every hole until the end is made by it.
+    BeginCycle(Box<DrillCycle>),
+    /// `GOTO` while a cycle is in force: a hole at this point of the surface, mm.
+    Hole(Point3),
+    /// `CYCLE/ OFF`.
+    EndCycle,
     /// `PROFIL`.
     Profile(Profile),
     /// `ROUGH` of a plate cam.
     RoughCam(RoughCam),
+}
+
+/// `CYCLE/ …`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DrillCycle {
+    /// The cycle; its feed is that of `FEDRAT` where [`DrillCycle::own_feed`] is not set.
+    pub cycle: crate::cl::Cycle,
+    /// The feed stands in the statement.
+    pub own_feed: bool,
+    /// Level above the hole's point after each hole, mm, where it is not the clearance level.
+    pub return_to: Option<f64>,
 }
 
 /// Spindle command.

@@ -238,6 +238,9 @@ fn follower_text(follower: &Follower) -> String {
 
 fn step_text(kind: &StepKind) -> String {
     match kind {
+        StepKind::BeginCycle(asked) => cycle(asked),
+        StepKind::Hole(p) => format!("hole {} {} {}", num(p.x), num(p.y), num(p.z)),
+        StepKind::EndCycle => "cycle off".into(),
         StepKind::LoadTool(tool) => format!("load tool {tool:?}"),
         StepKind::Spindle(Spindle::Off) => "spindle off".into(),
         StepKind::Spindle(Spindle::On { rpm, clockwise }) => {
@@ -338,4 +341,23 @@ fn rough_text(rough: &RoughCam) -> String {
         num(rough.band.out),
         num(rough.clearance)
     )
+}
+
+fn cycle(asked: &crate::ir::DrillCycle) -> String {
+    let c = &asked.cycle;
+    let mut text =
+        format!("cycle {} depth {} clearance {}", c.kind.name().text(), num(c.depth), num(c.clearance));
+    for (name, value) in [("return", asked.return_to), ("peck", c.peck), ("dwell", c.dwell)] {
+        if let Some(value) = value {
+            text += &format!(" {name} {}", num(value));
+        }
+    }
+    if let crate::cl::CycleKind::Tap { pitch, left } = c.kind {
+        text += &format!(" pitch {}{}", num(pitch), if left { " left" } else { "" });
+    }
+    match (asked.own_feed, c.feed) {
+        (true, Feed::PerMinute(f)) => text + &format!(" feed {} mm/min", num(f)),
+        (true, Feed::PerRevolution(f)) => text + &format!(" feed {} mm/rev", num(f)),
+        _ => text,
+    }
 }

@@ -5,6 +5,7 @@
 //! about words or names.
 
 mod checks;
+mod holes;
 mod levels;
 mod profile;
 mod room;
@@ -55,6 +56,9 @@ impl<'a> Planner<'a> {
 
     fn step(&mut self, step: &Step) {
         let origin = step.origin;
+        if !matches!(step.kind, StepKind::Hole(_) | StepKind::Feed(_)) {
+            self.close_cycle(origin);
+        }
         match &step.kind {
             StepKind::LoadTool(tool) => self.load(*tool, origin),
             StepKind::Spindle(spindle) => self.spindle(*spindle, origin),
@@ -68,6 +72,9 @@ impl<'a> Planner<'a> {
             StepKind::From(point) => self.from(*point, origin),
             StepKind::Goto { to, rapid: true } => self.rapid(*to, origin),
             StepKind::Goto { to, rapid: false } => self.goto(*to, origin),
+            StepKind::BeginCycle(asked) => self.begin_cycle(asked),
+            StepKind::Hole(point) => self.hole(*point, origin),
+            StepKind::EndCycle => self.end_cycle(origin),
             StepKind::Profile(profile) => self.profile(profile, origin),
             StepKind::RoughCam(rough) => self.rough(rough, origin),
         }

@@ -1,6 +1,7 @@
 //! The machine's state while planning, and the records that change it.
 
 use super::Planner;
+use super::holes::Drilling;
 use crate::arena::Handle;
 use crate::cl::{Record, RecordKind};
 use crate::diag::Diagnostic;
@@ -21,6 +22,12 @@ pub(super) struct State {
     pub placed: bool,
     /// `FROM` since the last move.
     from: Option<From>,
+    /// The drilling cycle in force.
+    pub drilling: Option<Drilling>,
+    /// Where the last move ended, if it was one of the program's own.
+    pub at: Option<Point3>,
+    /// Its height.
+    pub height: Option<f64>,
 }
 
 /// Where `FROM` says that the cutter is.
@@ -39,6 +46,9 @@ impl Default for State {
             recorded_feed: None,
             placed: false,
             from: None,
+            drilling: None,
+            at: None,
+            height: None,
         }
     }
 }
@@ -68,6 +78,8 @@ impl Planner<'_> {
 
     pub(super) fn load(&mut self, tool: Handle<Tool>, origin: Handle<Origin>) {
         self.state.tool = Some(tool);
+        self.state.at = None;
+        self.state.height = None;
         // A tool change stops the spindle, and moves the machine to where it changes.
         self.state.spindle = Spindle::Off;
         self.state.placed = false;
@@ -109,6 +121,7 @@ impl Planner<'_> {
 
     fn go_from(&mut self, from: From) {
         self.state.placed = true;
+        self.arrive(from.point);
         self.emit(RecordKind::From(from.point), from.origin);
     }
 
@@ -116,6 +129,8 @@ impl Planner<'_> {
     pub(super) fn start_operation(&mut self) {
         self.leave_from();
         self.state.placed = true;
+        self.state.at = None;
+        self.state.height = None;
     }
 
     /// Before a move: a `FROM` that no tool change has carried out is carried out.
@@ -128,12 +143,14 @@ impl Planner<'_> {
     pub(super) fn rapid(&mut self, to: Point3, origin: Handle<Origin>) {
         self.leave_from();
         self.state.placed = true;
+        self.arrive(to);
         self.emit(RecordKind::Rapid(to), origin);
     }
 
     pub(super) fn linear(&mut self, to: Point3, origin: Handle<Origin>) {
         self.leave_from();
         self.state.placed = true;
+        self.arrive(to);
         self.emit(RecordKind::Linear(to), origin);
     }
 

@@ -191,6 +191,7 @@ impl Analyser<'_> {
             "THICK" => self.thick(m),
             "TRACUT" => self.tracut(m, span),
             "CLEARP" => self.state.clearance = m.number("height").unwrap_or(self.state.clearance),
+            "CYCLE" => self.drill_cycle(m),
             "DELAY" => self.step(StepKind::Dwell(m.number("time").unwrap_or(0.0))),
             "STOP" => self.step(StepKind::Stop),
             "OPSTOP" => self.step(StepKind::OptionalStop),

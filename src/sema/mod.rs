@@ -18,6 +18,7 @@ mod cam;
 mod circles;
 mod curves;
 mod cutter;
+mod cycle;
 mod declare;
 mod elements;
 mod expression;

@@ -104,7 +104,7 @@ impl Analyser<'_> {
         self.state.position = Some(p);
         self.state.at_from = false;
         let to = self.transformed(p);
-        self.step(StepKind::Goto { to, rapid });
+        self.step(if self.state.cycle && !rapid { StepKind::Hole(to) } else { StepKind::Goto { to, rapid } });
     }
 
     /// A point of motion after `TRACUT`.

@@ -60,6 +60,8 @@ pub(super) struct State {
     pub clearance: f64,
     /// `RAPID` stands before the next move.
     pub rapid: bool,
+    /// A drilling cycle is in force.
+    pub cycle: bool,
     /// The cutter's position, mm, once it is known.
     pub position: Option<[f64; 3]>,
     /// `FROM` gave the position, and nothing has moved since.
@@ -94,6 +96,7 @@ impl Default for State {
             thick: 0.0,
             clearance: DEFAULT_CLEARANCE,
             rapid: false,
+            cycle: false,
             position: None,
             at_from: false,
             lost: false,

@@ -31,7 +31,6 @@ pub const ROWS: &[Statement] = &[
     later("SURFAC", "surface finishing"),
     later("POCKET", "pocket milling"),
     later("FACE", "face milling"),
-    later("CYCLE", "drilling cycles"),
     later("FORCES", "cutting forces"),
     later("OPTFED", "feed scheduling"),
     later("COMPEN", "deflection compensation"),

@@ -245,6 +245,62 @@ const TRACUT: &[Form] = &[
     ),
     form("end", "ends it", &[Item::Word("state", &[word("NOMORE", "no transformation")])], &[]),
 ];
+const CYCLE_KINDS: &[Choice] = &[
+    word("DRILL", "to the bottom at feed, back at rapid"),
+    word("FACE", "the same with a dwell: spot facing, counterboring"),
+    word("DEEP", "by pecks, each backed out to the clearance level"),
+    word("BRKCHP", "by pecks, the chip broken by a short retract"),
+    word("TAP", "tapping"),
+    word("BORE", "in and out at feed"),
+    word("REAM", "in and out at feed"),
+];
+
+const CYCLE_OPTIONS: &[Choices] = &[
+    with(
+        "depth",
+        &[word("FEDTO", "depth below the point"), word("DEPTH", "depth below the point")],
+        &[value("depth", POSITIVE, "length")],
+        true,
+        "",
+    ),
+    with(
+        "clearance",
+        &[word("RAPTO", "clearance above the point"), word("CLEAR", "clearance above the point")],
+        &[value("clearance", NOT_NEGATIVE, "length")],
+        true,
+        "",
+    ),
+    with(
+        "return",
+        &[word("RTRCTO", "level above the point after each hole")],
+        &[value("return", POSITIVE, "length")],
+        false,
+        "the clearance",
+    ),
+    with(
+        "peck",
+        &[word("STEP", "largest depth of one peck")],
+        &[value("peck", POSITIVE, "length")],
+        false,
+        "",
+    ),
+    with("feed", FEED_UNITS, &[value("feed", Kind::Feed, "feed into the hole")], false, "that of FEDRAT"),
+    with(
+        "dwell",
+        &[word("DWELL", "dwell at the bottom")],
+        &[value("dwell", Kind::Number(Dim::TIME, Range::Within(0.0, 99_999.0)), "seconds")],
+        false,
+        "none",
+    ),
+    with("pitch", &[word("PITCH", "pitch of a tap")], &[value("pitch", POSITIVE, "length")], false, ""),
+    choices("hand", &[word("LEFT", "left-hand thread")], "right-hand"),
+];
+
+const CYCLE: &[Form] = &[
+    form("off", "ends the cycle", &[Item::Word("state", &[word("OFF", "no cycle")])], &[]),
+    form("cycle", "every GOTO that follows is a hole", &[Item::Word("kind", CYCLE_KINDS)], CYCLE_OPTIONS),
+];
+
 const DELAY: &[Form] = &[form(
     "time",
     "",
@@ -297,6 +353,12 @@ pub const ROWS: &[Statement] = &[
     row("THICK", "stock to leave on later contours", "THICK/ 0.3", THICK),
     row("TRACUT", "transforms the points of FROM, GOTO and GODLTA", "TRACUT/ M1", TRACUT),
     row("CLEARP", "clearance plane for travel between cuts", "CLEARP/ 5", CLEARP),
+    row(
+        "CYCLE",
+        "drilling cycle: a GOTO after it drills, until CYCLE/ OFF",
+        "CYCLE/ DRILL, FEDTO, 12, RAPTO, 2, MMPM, 120",
+        CYCLE,
+    ),
     row("DELAY", "dwells", "DELAY/ 2s", DELAY),
     row("STOP", "program stop, M0", "STOP", &[]),
     row("OPSTOP", "optional stop, M1", "OPSTOP", &[]),
