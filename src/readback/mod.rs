@@ -18,6 +18,9 @@ mod out;
 mod trace;
 mod word;
 
+#[cfg(test)]
+mod tests;
+
 pub(crate) use curve::point as nurbs_point;
 pub use trace::{
     EventKind, Fault, FeedMode, MOST_FAULTS, Tilted, Trace, TraceEvent, TraceMove, TracePath, Washing,

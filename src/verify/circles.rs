@@ -13,7 +13,7 @@ use crate::math::{TAU, atan2, hypot};
 use crate::readback::{EventKind, Tilted, TraceMove, TracePath};
 
 /// Samples of a line; what lies between adds its sagitta over this squared.
-const SAMPLES: u32 = 64;
+const SAMPLES: u32 = 256;
 /// Samples of a full turn of an arc.
 const TURN_SAMPLES: f64 = 512.0;
 /// Samples of an arc at most.

@@ -156,7 +156,8 @@ impl<'a> Follower<'a> {
         // What lies above the surface is air.
         let depth = self.reached.min(self.point.z) - z;
         let pecked = matches!(self.cycle.kind, CycleKind::Deep | CycleKind::ChipBreak);
-        if let Some(most) = self.cycle.peck.filter(|most| pecked && depth > most + self.levels.near) {
+        let most = self.cycle.first_peck.filter(|_| self.pecks == 0).or(self.cycle.peck);
+        if let Some(most) = most.filter(|most| pecked && depth > most + self.levels.near) {
             let text = Text::default().words("a peck of ").length(depth).words(" in place of ");
             self.say(happening, text.length(most));
         }

@@ -45,6 +45,8 @@ mod plan;
 mod points;
 #[cfg(test)]
 mod program_tests;
+#[cfg(test)]
+mod random_tests;
 mod rail;
 mod spline;
 mod state;
