@@ -169,7 +169,11 @@ fn proof(piece: &Piece, run: &[Placed<'_>], length: f64, followed: &Followed) ->
 
 /// NC blocks: moves, and for NURBS their control points after the first.
 fn blocks(run: &[Placed<'_>]) -> u32 {
-    run.iter()
+    // A control that goes by an arc's angle adds a line to the arc of the same block.
+    let first_of_line = |i: &usize| *i == 0 || run.get(i - 1).map(|p| p.line) != run.get(*i).map(|p| p.line);
+    (0..run.len())
+        .filter(first_of_line)
+        .filter_map(|i| run.get(i))
         .map(|p| match &p.cut.path {
             crate::readback::TracePath::Nurbs { points, .. } => {
                 u32::try_from(points.len()).unwrap_or(u32::MAX).saturating_sub(1)
