@@ -140,7 +140,10 @@ fn against_ncplot7py(post: &str, machine: &str) {
             let (kind, time, path) = of_line.first().expect("a motion");
             assert_eq!(kind == "R", ours.rapid, "{place}");
             let (first, last) = (path.first().expect("a start"), path.last().expect("an end"));
-            assert!((first - ours.start()).norm() < NEAR && (last - ours.end()).norm() < NEAR, "{place}: {path:?} {ours:?}");
+            assert!(
+                (first - ours.start()).norm() < NEAR && (last - ours.end()).norm() < NEAR,
+                "{place}: {path:?} {ours:?}"
+            );
             assert!(path.iter().all(|p| off(ours, *p) < NEAR), "{place}: {path:?} {ours:?}");
             if let Some(feed) = ours.feed {
                 let wanted = 60.0 * ours.length() / feed;
@@ -179,7 +182,13 @@ fn sinumerik_as_nc_gcode_interpreter_executes_it() {
             let place = format!("{} for sinumerik, line {line}", program.name);
             let (code, end) = theirs.get(line).unwrap_or_else(|| panic!("{place}: no block there"));
             let wanted = match &ours.path {
-                TracePath::Arc { sweep, .. } => if *sweep < 0.0 { "G2" } else { "G3" },
+                TracePath::Arc { sweep, .. } => {
+                    if *sweep < 0.0 {
+                        "G2"
+                    } else {
+                        "G3"
+                    }
+                }
                 _ if ours.rapid => "G0",
                 _ => "G1",
             };
@@ -209,11 +218,15 @@ fn grbl_as_gcode_toolpath_executes_it() {
             .collect();
         // The first moves come from a place that only they think they know.
         let known = program.moves.iter().position(|(_, m)| comparable(m)).unwrap_or_default();
-        let ours: Vec<&(u32, TraceMove)> = program.moves[known..].iter().filter(|(_, m)| m.length() > 1e-9).collect();
+        let ours: Vec<&(u32, TraceMove)> =
+            program.moves[known..].iter().filter(|(_, m)| m.length() > 1e-9).collect();
         let skip = theirs.len().checked_sub(ours.len()).expect("as many moves as ours");
         for ((line, ours), (kind, way, path)) in ours.iter().zip(&theirs[skip..]) {
             let place = format!("{} for grbl, line {line}", program.name);
-            assert!((path[0] - ours.start()).norm() < 1e-6 && (path[1] - ours.end()).norm() < 1e-6, "{place}: {path:?} {ours:?}");
+            assert!(
+                (path[0] - ours.start()).norm() < 1e-6 && (path[1] - ours.end()).norm() < 1e-6,
+                "{place}: {path:?} {ours:?}"
+            );
             match &ours.path {
                 TracePath::Arc { centre, sweep, .. } => {
                     assert!(kind == "A" && (way == "C") == (*sweep < 0.0), "{place}: {way}");

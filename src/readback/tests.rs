@@ -28,7 +28,14 @@ fn long_lines_and_nuls_are_answered() {
         read(&vec![byte; 300_000]);
     }
     let line = "X1".repeat(200_000);
-    read(format!("G1 {line}\nMCALL CYCLE81({}\nCYCL DEF 200 {}\n", "1,".repeat(50_000), "Q1=1 ".repeat(20_000)).as_bytes());
+    read(
+        format!(
+            "G1 {line}\nMCALL CYCLE81({}\nCYCL DEF 200 {}\n",
+            "1,".repeat(50_000),
+            "Q1=1 ".repeat(20_000)
+        )
+        .as_bytes(),
+    );
 }
 
 #[test]

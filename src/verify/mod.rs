@@ -45,9 +45,9 @@ mod plan;
 mod points;
 #[cfg(test)]
 mod program_tests;
+mod rail;
 #[cfg(test)]
 mod random_tests;
-mod rail;
 mod spline;
 mod state;
 pub mod stream;

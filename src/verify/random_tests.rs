@@ -99,10 +99,18 @@ fn add(act: &Act, at: Point3, kinds: &mut Vec<RecordKind>) -> Point3 {
             let whole = *sweep == 360;
             let flat = if whole { at } else { centre + (u * c + v * s) * r };
             let to = flat + along * mm(*rise);
-            kinds.push(RecordKind::Circle(Box::new(Circle { to, centre, axis: along, turns: 0, tolerance: 0.01 })));
+            kinds.push(RecordKind::Circle(Box::new(Circle {
+                to,
+                centre,
+                axis: along,
+                turns: 0,
+                tolerance: 0.01,
+            })));
             to
         }
-        Act::Holes { kind, depth, initial, at: places } => holes(*kind, mm(*depth), *initial, places, at, kinds),
+        Act::Holes { kind, depth, initial, at: places } => {
+            holes(*kind, mm(*depth), *initial, places, at, kinds)
+        }
         Act::Dwell(tenths) => {
             kinds.push(RecordKind::Dwell(f64::from(*tenths) / 10.0));
             at
@@ -112,7 +120,9 @@ fn add(act: &Act, at: Point3, kinds: &mut Vec<RecordKind>) -> Point3 {
             at
         }
         Act::Coolant(which) => {
-            kinds.push(RecordKind::Coolant([Coolant::Off, Coolant::Flood, Coolant::Mist][usize::from(*which % 3)]));
+            kinds.push(RecordKind::Coolant(
+                [Coolant::Off, Coolant::Flood, Coolant::Mist][usize::from(*which % 3)],
+            ));
             at
         }
     }
