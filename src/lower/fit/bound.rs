@@ -1,21 +1,22 @@
 //! Proven lower bounds on the number of links of a chain in a tube, wherever its vertices lie.
 //!
 //! The tube is widened by the sampling error first. A chain that follows the whole of an open curve passes from the
-//! first gate to the last (of these only what is a few grid steps from the curve: a path starts and ends as near to the
-//! curve's ends as the grid allows); the farthest windows from the first gate count its links (greedy is optimal: what more can
-//! be seen from a farther window contains what can be seen from a nearer one). A closed chain has a vertex in any
+//! grid point nearest to the curve's start to the one nearest to its end; the farthest windows from the first count its
+//! links (greedy is optimal: what more can be seen from a farther window contains what can be seen from a nearer one). A closed chain has a vertex in any
 //! stretch that one link cannot pass, and cut at the gate through that vertex it is an open chain of as many links
 //! from that gate to the same gate one lap on. Gates `a < b` around it bound all cuts between them: a chain from
 //! within to one lap on also leads from `b` to `a` plus a lap.
 
+use super::ends::Ends;
 use super::tube::{Gates, Guard, Plane, Stations};
-use super::window::{Bank, Course, Exit, Stab, Window};
+use super::window::{Bank, Course, Exit, Stab, Window, look};
 use super::{FitError, Grid, Tube};
 
 /// Laps that a closed curve's bound may cost, by the number of links.
 fn laps_allowed(links: u32) -> u32 {
     match links {
-        0..=400 => 15,
+        0..=100 => 45,
+        101..=400 => 15,
         401..=4_000 => 8,
         _ => 3,
     }
@@ -42,15 +43,22 @@ pub fn spirals(tube: &Tube, grid: &Grid) -> Result<u32, FitError> {
 /// The bound for stations at hand.
 #[must_use]
 pub fn links(stations: &Stations, tube: &Tube) -> u32 {
-    let mut gates = stations.gates(tube, 1.0, Guard::Outside);
-    if !stations.closed {
-        stations.pin_ends(tube, &mut gates);
-    }
+    let gates = stations.gates(tube, 1.0, Guard::Outside);
     let mut stab = Stab::default();
     if gates.len() < 2 {
         return 1;
     }
-    if stations.closed { closed(&gates, &mut stab) } else { count(&gates, &mut stab, 0, gates.len() - 1) }
+    if stations.closed {
+        return closed(&gates, &mut stab);
+    }
+    match Ends::of(stations, tube, &gates) {
+        Ok(ends) => {
+            let course = ends.course(&gates);
+            let first = look(&course, ends.head.point(), ends.head.next);
+            1 + first.window(&course).map_or(0, |window| windows(&course, &mut stab, window, first.reach))
+        }
+        Err(_) => count(&gates, &mut stab, 0, gates.len() - 1),
+    }
 }
 
 /// Links of the shortest chain from gate `from` to gate `to`.
@@ -59,14 +67,17 @@ fn count(gates: &Gates, stab: &mut Stab, from: usize, to: usize) -> u32 {
         return 1;
     }
     let course = Course { gates, end: to, target: None };
-    let mut window = gate_window(gates, from);
+    windows(&course, stab, gate_window(gates, from), from as f64)
+}
+
+/// Links from a window to the end of the course.
+fn windows(course: &Course, stab: &mut Stab, mut window: Window, mut reach: f64) -> u32 {
     let mut links = 0;
-    let mut reach = from as f64;
     loop {
         links += 1;
-        let view = stab.view(&course, &window);
+        let view = stab.view(course, &window);
         let stuck = view.reach <= reach && links > 1;
-        match view.window(&course) {
+        match view.window(course) {
             Some(next) if view.exit != Exit::End && !stuck => window = next,
             _ => return links,
         }

@@ -1,5 +1,6 @@
 //! A chain of links through a tube: where it starts and ends, how it closes, and its certified deviation.
 
+use super::ends::Ends;
 use super::measure::{Path, Range, Sample, between, foot};
 use super::search::{Effort, Goal, Search, Stuck, Vertex, seed};
 use super::tube::{Corner, Gates, Guard, Plane, ROUNDING, Station, Stations};
@@ -20,6 +21,12 @@ const FEW: usize = 16;
 
 /// Chains of more links are not searched for widely: their grid is fine enough for a narrow search.
 const MANY: u32 = 3_000;
+
+/// Starts over the length of a link that are tried when a chain has too many links.
+const STARTS: usize = 16;
+
+/// Chains of more links do not depend on the start.
+const FINE: usize = 400;
 
 /// Another start is worth trying when no more than this part of a link is missing.
 const WORTH: f64 = 0.25;
@@ -70,6 +77,11 @@ fn effort(links: f64) -> (Effort, u32) {
         n if n < 30_000.0 => (Effort { beam: 2, tries: 3, all: false }, 1),
         _ => (Effort { beam: 2, tries: 2, all: false }, 0),
     }
+}
+
+/// Links that may be left without trying many starts: one more than the bound, or the bound and 3 %.
+fn allowed(bound: u32) -> u32 {
+    bound + (bound * 3 / 100).max(1)
 }
 
 struct Solver<'a> {
@@ -169,14 +181,26 @@ impl Solver<'_> {
         for round in 1..=rounds.min(3) {
             let missing = best.fraction - (best.links() - 1) as f64;
             if best.links() <= self.bound as usize || missing > WORTH {
+                break;
+            }
+            self.restart(best, from + link * round as usize / 4, effort);
+        }
+        let wider = Effort { beam: 2 * effort.beam, tries: 2 * effort.tries, all: false };
+        for round in 0..STARTS {
+            if best.links() as u32 <= allowed(self.bound) || best.links() > FINE {
                 return;
             }
-            let shifted = from + link * round as usize / 4;
-            if let Ok(chain) = self.attempt(1.0, shifted % n, effort)
-                && (chain.links(), self.excess(&chain.range)) < (best.links(), self.excess(&best.range))
-            {
-                *best = chain;
-            }
+            self.restart(best, from + link * round / STARTS, wider);
+        }
+    }
+
+    /// Takes the chain from another start when it is better.
+    fn restart(&mut self, best: &mut Chain, from: usize, effort: Effort) {
+        let n = self.stations.stations.len();
+        if let Ok(chain) = self.attempt(1.0, from % n, effort)
+            && (chain.links(), self.excess(&chain.range)) < (best.links(), self.excess(&best.range))
+        {
+            *best = chain;
         }
     }
 
@@ -265,17 +289,9 @@ impl Solver<'_> {
 
     /// An open chain between the grid points nearest to the curve's ends.
     fn open(&mut self, gates: &Gates, effort: Effort) -> Result<Vec<Vertex>, Stuck> {
-        let n = gates.len();
-        let course = Course { gates, end: n, target: None };
-        let tail = self.stations.end_vertex(self.tube, n - 1).ok_or(Stuck { gate: n - 1 })?;
-        let head = self.stations.end_vertex(self.tube, 0).ok_or(Stuck { gate: 0 })?;
-        let (p, q) = (Vec2::new(head[0] as f64, head[1] as f64), Vec2::new(tail[0] as f64, tail[1] as f64));
-        let next = course.locate(p, 8.min(n - 1), 0).map_or(0, |g| g + 1).clamp(1, n - 1);
-        let end = course.locate(q, n - 1, next - 1).map_or(next, |g| g + 1).min(n - 1).max(next);
-        let course = Course { gates, end, target: Some(q) };
-        let head = Vertex { at: head, next };
-        let mut chain = self.search.run(&course, &[head], Goal::Target, effort)?;
-        chain.push(Vertex { at: tail, next: end });
+        let ends = Ends::of(self.stations, self.tube, gates).map_err(|gate| Stuck { gate })?;
+        let mut chain = self.search.run(&ends.course(gates), &[ends.head], Goal::Target, effort)?;
+        chain.push(ends.tail);
         Ok(chain)
     }
 

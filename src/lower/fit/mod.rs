@@ -16,6 +16,7 @@ use core::fmt;
 pub mod arcs;
 pub mod bound;
 mod chain;
+mod ends;
 mod guard;
 mod lines;
 pub mod measure;
@@ -105,7 +106,8 @@ pub struct Fit {
     pub start: [i64; 2],
     /// The chain.
     pub primitives: Vec<Primitive>,
-    /// Proven lower bound on the number of primitives of this class for this band, whatever the grid.
+    /// Proven lower bound on the number of primitives of this class for this band, whatever the grid; of an open
+    /// curve between the ends that the grid allows.
     pub lower_bound: Option<u32>,
     /// Largest certified deviation to the left and to the right of the curve, mm, both >= 0.
     pub deviation: (f64, f64),

@@ -21,6 +21,8 @@ pub struct Effort {
 
 /// Grid columns looked at for one vertex when nothing has been found yet, and when something has.
 const COLUMNS: (u32, u32) = (20_000, 256);
+/// Columns next to the first that are looked at one by one; farther out they are skipped in proportion to the distance.
+const DENSE: f64 = 128.0;
 /// Layers without progress before the search gives up.
 const PATIENCE: u32 = 3;
 
@@ -272,6 +274,7 @@ impl<'a> Scan<'a> {
     fn pass(&self, mut column: f64, step: f64, last: f64, tries: usize, found: &mut Vec<(f64, [i64; 2])>) {
         let mut edge = (self.view.stop - 1).min(self.course.end - 1);
         let mut looked = 0;
+        let near = column;
         while (last - column) * step >= 0.0 {
             looked += 1;
             let full = found.len() >= tries;
@@ -285,7 +288,7 @@ impl<'a> Scan<'a> {
                 }
                 self.grid_points(column, span, ideal, tries, found);
             }
-            column += step;
+            column += step * floor((column - near).abs() / DENSE).max(1.0);
         }
     }
 

@@ -275,51 +275,6 @@ impl Stations {
         gates
     }
 
-    /// Narrows the first and the last gate of an open curve to what is near the path's end vertices.
-    pub fn pin_ends(&self, tube: &Tube, gates: &mut Gates) {
-        let last = self.stations.len() - 1;
-        for i in [0, last] {
-            let f = &self.stations[i].frenet;
-            let step = match self.plane {
-                Plane::Xy { step } => step,
-                Plane::Polar { step, angle_step } => step.max(f.p.coords.norm() * angle_step * math::DEG),
-            };
-            let Some(end) = self.end_vertex(tube, i) else { continue };
-            let p = self.plane.to_part(Vec2::new(end[0] as f64, end[1] as f64));
-            let reach = (p - f.p).norm() + step;
-            let near = gates.l[i];
-            gates.l[i] = self.plane.to_grid(f.p + f.n() * tube.left.min(reach), near);
-            gates.r[i] = self.plane.to_grid(f.p - f.n() * tube.right.min(reach), near);
-        }
-    }
-
-    /// The grid point nearest to the curve's end at station `i` that lies in the band.
-    #[must_use]
-    pub fn end_vertex(&self, tube: &Tube, i: usize) -> Option<[i64; 2]> {
-        let f = self.stations[i].frenet;
-        let plane = self.plane;
-        let centre = self.angle_near(i);
-        let mut best: Option<(f64, [i64; 2])> = None;
-        for dx in -3..=3 {
-            for dy in -3..=3 {
-                let at = [centre.x.round() as i64 + dx, centre.y.round() as i64 + dy];
-                let w = plane.to_part(Vec2::new(at[0] as f64, at[1] as f64)) - f.p;
-                let d = w.dot(&f.n());
-                let inside = d <= tube.left + ROUNDING && d >= -tube.right - ROUNDING;
-                if inside && best.is_none_or(|b| w.norm() < b.0) {
-                    best = Some((w.norm(), at));
-                }
-            }
-        }
-        best.map(|b| b.1)
-    }
-
-    /// Grid coordinates of station `i`, its angle counted on from the first station.
-    fn angle_near(&self, i: usize) -> Vec2 {
-        let plane = self.plane;
-        self.stations[..=i].iter().fold(Vec2::zeros(), |near, s| plane.to_grid(s.frenet.p, near))
-    }
-
     /// The boundary at signed distance `d`, in mm; `side` +1 for the left boundary, -1 for the right.
     fn boundary(&self, d: f64, side: f64, guard: Guard) -> Vec<Point2> {
         let mut points: Vec<Point2> = self
