@@ -1,16 +1,15 @@
 //! A chain of links through a tube: where it starts and ends, how it closes, and its certified deviation.
 
+use super::certify::Certificate;
 use super::ends::Ends;
-use super::measure::{Path, Range, Sample, between, foot};
+use super::measure::Range;
 use super::search::{Effort, Goal, Search, Stuck, Vertex, seed};
-use super::tube::{Corner, Gates, Guard, Plane, ROUNDING, Station, Stations};
+use super::tube::{Gates, Guard, Plane, ROUNDING, Stations};
 use super::window::Course;
 use super::{Fit, FitError, Primitive, Tube, bound};
-use crate::geom::{Point2, Vec2};
+use crate::geom::Vec2;
 use crate::math;
 
-/// Accuracy of the certified deviation, mm.
-pub const ACCURACY: f64 = 1e-8;
 /// Deviations are accepted this far beyond the band, mm: the rounding that the gates allow, and that of measuring.
 const ACCEPTED: f64 = 4.0 * ROUNDING;
 /// Parts of the band that are tried when the certified deviation of a chain leaves it.
@@ -249,7 +248,7 @@ impl Solver<'_> {
             self.open(&gates, effort)?
         };
         let fraction = fraction(&vertices);
-        let range = self.certify(&vertices);
+        let range = Certificate { tube: self.tube, stations: self.stations }.chain(&vertices);
         let inside = range.high <= self.tube.left + ACCEPTED && range.low >= -self.tube.right - ACCEPTED;
         if inside { Ok(Chain { vertices, fraction, range }) } else { Err(Stuck { gate: from }) }
     }
@@ -293,182 +292,6 @@ impl Solver<'_> {
         let mut chain = self.search.run(&ends.course(gates), &[ends.head], Goal::Target, effort)?;
         chain.push(ends.tail);
         Ok(chain)
-    }
-
-    /// Smallest and largest deviation of the chain, on its printed vertices.
-    fn certify(&self, vertices: &[Vertex]) -> Range {
-        let mut range = Range::EMPTY;
-        let feet: Vec<Foot> = vertices.iter().map(|v| self.foot(v)).collect();
-        for (pair, feet) in vertices.windows(2).zip(feet.windows(2)) {
-            self.certify_link(pair, feet, &mut range);
-        }
-        range
-    }
-
-    fn certify_link(&self, pair: &[Vertex], feet: &[Foot], range: &mut Range) {
-        let path = self.path(&pair[0], &pair[1]);
-        range.add(feet[0].d);
-        range.add(feet[1].d);
-        let n = self.stations.stations.len();
-        let mut before = feet[0].u.and_then(|u| self.sample(&path, u, feet[0].span));
-        for i in pair[0].next..pair[1].next {
-            let station = &self.stations.stations[i % n];
-            let Some(sample) = self.crossing(&path, station) else {
-                before = None;
-                continue;
-            };
-            range.add(sample.d);
-            if let Some(before) = before {
-                self.extremes(&path, before, sample, station, i, range);
-            }
-            before = Some(sample);
-        }
-        let last = feet[1].u.and_then(|u| self.sample(&path, u, feet[1].span));
-        if let (Some(a), Some(b)) = (before, last)
-            && b.u > a.u
-            && feet[1].span < self.tube.curve.breaks().len()
-        {
-            between(self.tube.curve, feet[1].span, &path, (a, b), ACCURACY, range);
-        }
-        self.bisectors(&path, pair, range);
-    }
-
-    /// Extremes between two samples, the second at station `i`.
-    fn extremes(
-        &self,
-        path: &Path,
-        a: Sample,
-        mut b: Sample,
-        station: &Station,
-        i: usize,
-        range: &mut Range,
-    ) {
-        let n = self.stations.stations.len();
-        if station.frenet.speed == 0.0 {
-            return;
-        }
-        let before = &self.stations.stations[(i + n - 1) % n];
-        let breaks = self.tube.curve.breaks();
-        let span = before.span;
-        // the station at a break belongs to the next span: measured again from this one
-        if station.span != span || b.u <= a.u {
-            let u = breaks[span + 1];
-            let Some(again) = self.sample(path, u, span) else { return };
-            b = again;
-        }
-        if b.u > a.u {
-            between(self.tube.curve, span, path, (a, b), ACCURACY, range);
-        }
-    }
-
-    fn sample(&self, path: &Path, u: f64, span: usize) -> Option<Sample> {
-        Sample::new(path, u, &self.tube.curve.at_in(span, u))
-    }
-
-    /// Where the station's normal meets the path, unless another part of the curve is nearer there (inside a corner).
-    fn crossing(&self, path: &Path, station: &Station) -> Option<Sample> {
-        let sample = Sample::new(path, station.u, &station.frenet)?;
-        let q = station.frenet.p + station.frenet.n() * sample.d;
-        let hidden = |c: &Corner| {
-            let inner = sample.d * c.half_sin > 0.0;
-            let near = (station.frenet.p - c.point).norm();
-            let close =
-                near * (1.0 - c.half_sin * c.half_sin).max(0.0).sqrt() <= sample.d.abs() * c.half_sin.abs();
-            // on the inner side the normals near a corner end at its bisector
-            inner
-                && close
-                && (station.frenet.speed == 0.0
-                    || (q - c.point).dot(&c.along) * (station.frenet.p - c.point).dot(&c.along) <= 0.0)
-        };
-        (!self.stations.corners.iter().any(hidden)).then_some(sample)
-    }
-
-    /// Distance from corners to the link, along their bisectors, on the inner side.
-    fn bisectors(&self, path: &Path, pair: &[Vertex], range: &mut Range) {
-        let n = self.stations.stations.len();
-        for corner in &self.stations.corners {
-            let lap = pair[1].next / n;
-            let inside = [0, lap * n]
-                .iter()
-                .any(|shift| pair[0].next <= corner.last + shift && corner.first + shift <= pair[1].next);
-            let f = crate::geom::curve::Frenet { p: corner.point, t: corner.along, speed: 0.0, k: 0.0 };
-            if !inside {
-                continue;
-            }
-            let Some(meeting) = path.meet(&f) else { continue };
-            let q = corner.point + corner.bisector() * meeting.d;
-            let (a, b) = (self.part(&pair[0]), self.part(&pair[1]));
-            let within = (q - a).dot(&(b - a)) >= 0.0 && (q - b).dot(&(a - b)) >= 0.0;
-            if within && meeting.d * corner.half_sin > 0.0 {
-                range.add(meeting.d);
-            }
-        }
-    }
-
-    fn part(&self, v: &Vertex) -> Point2 {
-        self.stations.plane.to_part(v.point())
-    }
-
-    fn path(&self, a: &Vertex, b: &Vertex) -> Path {
-        match self.stations.plane {
-            Plane::Xy { .. } => Path::Line { from: self.part(a), to: self.part(b) },
-            Plane::Polar { step, angle_step } => {
-                let polar = |v: &Vertex| (v.point().x * step, v.point().y * angle_step * math::DEG);
-                Path::Spiral { from: polar(a), to: polar(b) }
-            }
-        }
-    }
-
-    /// The curve's point nearest to a vertex, and the signed distance there.
-    fn foot(&self, v: &Vertex) -> Foot {
-        let n = self.stations.stations.len();
-        let p = self.part(v);
-        let before = &self.stations.stations[(v.next + n - 1) % n];
-        let mut best = self.foot_on(p, before.span, before.u);
-        for corner in &self.stations.corners {
-            let reach = (p - corner.point).norm();
-            if reach > 4.0 * self.tube.left.max(self.tube.right) {
-                continue;
-            }
-            let inner = (p - corner.point).dot(&corner.bisector());
-            let d = reach * inner.signum();
-            for end in [corner.first, corner.last] {
-                let s = &self.stations.stations[end % n];
-                best = nearer(best, self.foot_on(p, s.span, s.u));
-            }
-            best = nearer(best, Some(Foot { u: None, span: before.span, d }));
-        }
-        best.unwrap_or_else(|| {
-            // beyond the end of an open curve: on the normal of that end
-            let after = &self.stations.stations[v.next % n];
-            let off = |s: &Station| (p - s.frenet.p).dot(&s.frenet.t).abs();
-            let end = if off(after) < off(before) { after } else { before };
-            Foot { u: None, span: before.span, d: (p - end.frenet.p).dot(&end.frenet.n()) }
-        })
-    }
-
-    fn foot_on(&self, p: Point2, span: usize, guess: f64) -> Option<Foot> {
-        let breaks = self.tube.curve.breaks();
-        let u = (*breaks.get(span)?, *breaks.get(span + 1)?);
-        foot(self.tube.curve, span, p, u, guess.clamp(u.0, u.1)).map(|(u, d)| Foot { u: Some(u), span, d })
-    }
-}
-
-/// The foot of a vertex on the curve.
-#[derive(Debug, Clone, Copy)]
-struct Foot {
-    /// Parameter, unless a corner is nearest.
-    u: Option<f64>,
-    span: usize,
-    /// Signed distance, mm.
-    d: f64,
-}
-
-fn nearer(a: Option<Foot>, b: Option<Foot>) -> Option<Foot> {
-    match (a, b) {
-        (Some(a), Some(b)) if b.d.abs() < a.d.abs() => Some(b),
-        (Some(a), _) => Some(a),
-        (None, b) => b,
     }
 }
 

@@ -30,8 +30,7 @@ impl Ends {
         let tail = nearest(stations, tube, last).ok_or(last)?;
         let head = nearest(stations, tube, 0).ok_or(0_usize)?;
         let course = Course { gates, end: last + 1, target: None };
-        let next =
-            course.locate(point(head), NEAR.min(last), 0).map_or(0, |g| g + 1).clamp(1, last.max(1));
+        let next = course.locate(point(head), NEAR.min(last), 0).map_or(0, |g| g + 1).clamp(1, last.max(1));
         let end = course.locate(point(tail), last, next - 1).map_or(next, |g| g + 1).min(last).max(next);
         Ok(Ends { head: Vertex { at: head, next }, tail: Vertex { at: tail, next: end } })
     }
@@ -52,7 +51,8 @@ fn nearest(stations: &Stations, tube: &Tube, i: usize) -> Option<[i64; 2]> {
     let f = stations.stations[i].frenet;
     let plane = stations.plane;
     // angles are counted on from the first station
-    let centre = stations.stations[..=i].iter().fold(Vec2::zeros(), |near, s| plane.to_grid(s.frenet.p, near));
+    let centre =
+        stations.stations[..=i].iter().fold(Vec2::zeros(), |near, s| plane.to_grid(s.frenet.p, near));
     let mut best: Option<(f64, [i64; 2])> = None;
     for dx in -AROUND..=AROUND {
         for dy in -AROUND..=AROUND {

@@ -15,6 +15,7 @@ use core::fmt;
 
 pub mod arcs;
 pub mod bound;
+mod certify;
 mod chain;
 mod ends;
 mod guard;

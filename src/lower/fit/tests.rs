@@ -310,6 +310,44 @@ fn an_open_polyline_keeps_its_corners() {
 }
 
 #[test]
+fn an_open_zigzag_takes_one_line_a_side_and_a_cost_in_proportion() {
+    for sides in [50_usize, 800, 3200] {
+        let point = |k: usize| {
+            let (sin, cos) = math::sin_cos(k as f64 / 3300.0 * math::TAU);
+            let r = if k.is_multiple_of(2) { 100.5 } else { 100.0 };
+            (r * cos, r * sin)
+        };
+        let points: Vec<(f64, f64)> = (0..=sides).map(point).collect();
+        let open = Polygon::new(&points);
+        let tube = Tube { curve: &open, left: 0.01, right: 0.01 };
+        let fit = lines(&tube, &grid(3), None).unwrap();
+        assert_eq!((fit.primitives.len(), fit.lower_bound), (sides, Some(sides as u32)));
+    }
+}
+
+#[test]
+fn the_ends_of_an_open_curve_count_in_the_bound() {
+    let curve = Fourier {
+        centre: Vec2::new(1.6263287552962287, -2.1971428174232615),
+        terms: vec![
+            (34.25495718737188, 0.0),
+            (0.0, 0.0),
+            (1.6165756972656113, 1.928091322199272),
+            (0.7731542604186659, -0.17040798556676154),
+            (0.2256865810967379, -0.4543781220921744),
+            (-0.025277457108059984, -0.06731474570675733),
+            (-0.16081201636610312, 0.021644237128500634),
+        ],
+        breaks: [1.5904311468447954, 5.149527482634128],
+    };
+    let tube = Tube { curve: &curve, left: 0.01638988692065119, right: 0.003115338914163301 };
+    for grid in [grid(3), grid(4), inch()] {
+        run(&tube, &grid, lines, 3000);
+        run(&tube, &grid, spirals, 3000);
+    }
+}
+
+#[test]
 fn a_straight_line_is_one_link_of_least_deviation() {
     let line = Polygon::new(&[(0.0, 0.0), (37.1234, 11.9876)]);
     let tube = Tube { curve: &line, left: 0.01, right: 0.01 };
