@@ -106,6 +106,12 @@ impl Net {
     /// The patch that holds (u, v), and the parameters inside it; outside the net, the nearest.
     #[must_use]
     pub fn locate(&self, u: f64, v: f64) -> (&Patch, f64, f64) {
+        let (patch, s, t) = self.place(u, v);
+        (&self.patches[patch], s, t)
+    }
+    /// The index of the patch that holds (u, v), and the parameters inside it; outside the net, the nearest.
+    #[must_use]
+    pub fn place(&self, u: f64, v: f64) -> (usize, f64, f64) {
         let split = |t: f64, n: usize| {
             let t = t.clamp(0.0, crate::math::count(n));
             let mut k = 0;
@@ -116,7 +122,7 @@ impl Net {
         };
         let (i, s) = split(u, self.rows);
         let (j, t) = split(v, self.columns);
-        (&self.patches[i * self.columns + j], s, t)
+        (i * self.columns + j, s, t)
     }
     /// Surface point and derivatives at net parameters.
     #[must_use]
