@@ -21,6 +21,7 @@ mod later;
 mod operations;
 mod process;
 mod program;
+mod surfaces;
 pub mod reference;
 mod space;
 
@@ -126,6 +127,8 @@ pub enum EntityKind {
     Cutter,
     /// `STOCK`
     Stock,
+    /// `NET`
+    Net,
     /// A labelled operation
     Operation,
 }
@@ -148,6 +151,7 @@ impl EntityKind {
             EntityKind::Cam => "a cam",
             EntityKind::Cutter => "a cutter",
             EntityKind::Stock => "a stock",
+            EntityKind::Net => "a net",
             EntityKind::Operation => "an operation",
         }
     }
@@ -168,6 +172,7 @@ impl EntityKind {
             EntityKind::Cam => "CAM",
             EntityKind::Cutter => "CUTTER",
             EntityKind::Stock => "STOCK",
+            EntityKind::Net => "NET",
             EntityKind::Operation => "PROFIL",
         }
     }
@@ -366,7 +371,7 @@ const NOT_NEGATIVE: Kind = Kind::Number(Dim::LENGTH, Range::NotNegative);
 const ANGLE: Kind = Kind::Number(Dim::ANGLE, Range::Any);
 
 /// The table, by group.
-pub const TABLE: [&[Statement]; 9] = [
+pub const TABLE: [&[Statement]; 11] = [
     program::ROWS,
     geometry::ROWS,
     curves::ROWS,
@@ -375,6 +380,8 @@ pub const TABLE: [&[Statement]; 9] = [
     process::ROWS,
     operations::MOTION,
     operations::ROWS,
+    surfaces::NETS,
+    surfaces::OPERATIONS,
     later::ROWS,
 ];
 

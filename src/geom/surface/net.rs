@@ -23,15 +23,6 @@ pub enum NetIssue {
     },
     /// A coordinate or weight that is not finite, or a weight that is not positive.
     NotFinite,
-    /// A patch whose r_u × r_v vanishes on a whole edge or at a corner, or that folds back: patch (i, j), (u, v).
-    Degenerate {
-        /// Patch row and column.
-        patch: [usize; 2],
-        /// Parameters inside the patch.
-        at: [f64; 2],
-        /// The point, mm.
-        point: Point3,
-    },
 }
 
 /// How two neighbouring patches meet.

@@ -60,8 +60,54 @@ struct Leaf {
     area: Area,
     hull: [Interval; 3],
     slab: Slab,
-    /// r_u, r_v, r_uu, r_uv, r_vv.
-    derivatives: [[Interval; 3]; 5],
+    bend: Bend,
+}
+
+/// What the Hessian of F takes from the derivatives over a rectangle, for a quick test of convexity.
+#[derive(Debug, Clone, Copy)]
+struct Bend {
+    /// Lower bounds of r_u² and r_v².
+    squares: [f64; 2],
+    /// Middle and half width of r_u·r_v.
+    mixed: (f64, f64),
+    /// Middles and half widths of r_uu, r_uv, r_vv.
+    second: [(Vec3, Vec3); 3],
+}
+
+impl Bend {
+    /// Relative slack for rounding: a few dozen operations.
+    const ROUNDING: f64 = 1e-13;
+
+    fn new(derivatives: &[[Interval; 3]; 5]) -> Bend {
+        let [ru, rv, ruu, ruv, rvv] = derivatives;
+        let squares = |a: &[Interval; 3]| (a[0].square() + a[1].square() + a[2].square()).lo;
+        let mixed = ru[0] * rv[0] + ru[1] * rv[1] + ru[2] * rv[2];
+        let split = |a: &[Interval; 3]| {
+            let middle = a.map(|i| 0.5 * (i.lo + i.hi));
+            let half = core::array::from_fn(|k| (a[k].hi - middle[k]).max(middle[k] - a[k].lo));
+            (Vec3::from(middle), Vec3::from(half))
+        };
+        let middle = 0.5 * (mixed.lo + mixed.hi);
+        Bend {
+            squares: [squares(ru), squares(rv)],
+            mixed: (middle, (mixed.hi - middle).max(middle - mixed.lo)),
+            second: [split(ruu), split(ruv), split(rvv)],
+        }
+    }
+
+    /// Whether G - offset·D is positive definite for all offsets within `half` of `middle`, over the whole rectangle.
+    fn convex(&self, middle: Vec3, half: Vec3) -> bool {
+        let size = middle.abs();
+        let products = self.second.map(|(c, r)| {
+            let spread = size.dot(&r) + c.abs().dot(&half) + half.dot(&r);
+            let value = middle.dot(&c);
+            (value, spread + Bend::ROUNDING * (size.dot(&c.abs()) + spread))
+        });
+        let low = |k: usize, i: usize| self.squares[k] * (1.0 - Bend::ROUNDING) - products[i].0 - products[i].1;
+        let (h11, h22) = (low(0, 0), low(1, 2));
+        let most = (self.mixed.0 - products[1].0).abs() + self.mixed.1 + products[1].1;
+        h11 > 0.0 && h22 > 0.0 && h11 * h22 > most * most * (1.0 + Bend::ROUNDING)
+    }
 }
 
 /// Parameter rectangle.
@@ -221,7 +267,8 @@ impl SurfaceTree {
             let fits = convex(&derivatives, &cone(&derivatives, reach, size)) && size < reach.max(1e-3);
             if fits || depth >= DEEPEST {
                 self.upright &= rises(&derivatives);
-                self.leaves.push(Leaf { patch, area, hull, slab, derivatives });
+                let bend = Bend::new(&derivatives);
+                self.leaves.push(Leaf { patch, area, hull, slab, bend });
                 let kind = Kind::Leaf(index(self.leaves.len() - 1));
                 return Node { low: hull.map(|i| i.lo), high: hull.map(|i| i.hi), kind };
             }
@@ -521,12 +568,14 @@ impl Quest<'_> {
             return;
         }
         let own = self.best.patch == leaf.patch;
-        if own && leaf.area.contains(self.best.uv) && convex(&leaf.derivatives, &self.offsets(&leaf.hull)) {
+        let (middle, half) = self.offset(&leaf.hull);
+        let convex = leaf.bend.convex(middle, half);
+        if own && convex && leaf.area.contains(self.best.uv) {
             return;
         }
         let patch = &self.tree.net.patches()[leaf.patch];
         let near = Place::new(patch, self.x, leaf.area.clamp(if own { self.best.uv } else { leaf.area.middle() }));
-        if !convex(&leaf.derivatives, &self.offsets(&leaf.hull)) {
+        if !convex {
             let mut budget = MOST_PIECES;
             return self.pieces(leaf, &mut budget);
         }
@@ -545,9 +594,10 @@ impl Quest<'_> {
         low >= 0.5 * best * best
     }
 
-    /// x - r for all points r in a box.
-    fn offsets(&self, hull: &[Interval; 3]) -> [Interval; 3] {
-        core::array::from_fn(|i| Interval { lo: self.x[i] - hull[i].hi, hi: self.x[i] - hull[i].lo })
+    /// x - r for all points r in a box: middle and half width.
+    fn offset(&self, hull: &[Interval; 3]) -> (Vec3, Vec3) {
+        let middle = Vec3::from(hull.map(|i| 0.5 * (i.lo + i.hi)));
+        (self.x.coords - middle, Vec3::from(hull.map(|i| 0.5 * (i.hi - i.lo))) * (1.0 + 1e-12))
     }
 
     fn take(&mut self, place: Place, patch: usize) {
@@ -569,8 +619,9 @@ impl Quest<'_> {
             if bound >= self.limit - SAME {
                 continue;
             }
-            let derivatives = self.tree.derivatives[leaf.patch].boxes(area.u, area.v);
-            if convex(&derivatives, &self.offsets(&hull(&piece))) {
+            let bend = Bend::new(&self.tree.derivatives[leaf.patch].boxes(area.u, area.v));
+            let (middle, half) = self.offset(&hull(&piece));
+            if bend.convex(middle, half) {
                 self.take(descend(patch, self.x, area.middle(), &area), leaf.patch);
                 continue;
             }

@@ -24,6 +24,7 @@ pub mod measure;
 pub mod nurbs;
 #[cfg(test)]
 mod samples;
+pub mod ribbon;
 mod search;
 mod spirals;
 #[cfg(test)]

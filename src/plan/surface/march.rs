@@ -1,0 +1,204 @@
+//! How close passes lie: as far apart as the height of cusps (or the step) allows, and evenly used up.
+//!
+//! The distance is not taken from a formula of the curvature but from the ridge that two passes leave, computed
+//! at many places of the pass: Jeong and Jeong's equation (23) is its first approximation.
+
+use rayon::prelude::*;
+
+use super::family::Family;
+use crate::geom::Vec3;
+use crate::geom::surface::{Contact, ridge};
+use crate::math::count;
+
+/// What decides.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Target {
+    /// Height of cusps, mm.
+    Cusp(f64),
+    /// Distance on the surface, mm.
+    Step(f64),
+}
+
+/// Places of a pass at which the ridge is computed.
+const PLACES: usize = 96;
+/// Share of the allowed distance that is used: what the places between those computed may need.
+const USED: f64 = 0.9995;
+/// More passes than this are a mistake in the tolerance.
+const MOST: usize = 50_000;
+
+/// *Across* of all passes, the first and the last at the ends of the surface.
+pub(super) fn places(family: &Family, target: Target) -> Result<Vec<f64>, String> {
+    let (first, last) = family.across();
+    let whole = last - first;
+    let mut found = vec![first];
+    let (mut at, mut guess) = (first, whole / 50.0);
+    while at < last {
+        let step = next(family, target, at, guess, last);
+        if !(step > 1e-7 * whole) || found.len() > MOST {
+            let what = if let Target::Cusp(h) = target { format!("a height of cusps of {h} mm") } else { "this step".into() };
+            return Err(format!("{what} asks for more than {MOST} passes"));
+        }
+        at += step;
+        guess = step;
+        found.push(at);
+    }
+    Ok(even(&found, last))
+}
+
+/// The places moved together evenly, so that the last one lies at the end: each distance is used up to the same share.
+fn even(found: &[f64], last: f64) -> Vec<f64> {
+    let n = found.len() - 1;
+    if n == 0 {
+        return vec![last];
+    }
+    let (a, b) = (found[n - 1], found[n]);
+    let whole = count(n - 1) + (last - a) / (b - a);
+    let mut places: Vec<f64> = (0..n).map(|k| at_count(found, count(k) * whole / count(n))).collect();
+    places.push(last);
+    places
+}
+
+/// The place between passes, by a quadratic through three of them.
+fn at_count(found: &[f64], x: f64) -> f64 {
+    let n = found.len() - 1;
+    let i = (x.floor() as usize).min(n - 1);
+    let f = x - count(i);
+    let (a, b) = (found[i], found[i + 1]);
+    let linear = a + (b - a) * f;
+    let second = match (i.checked_sub(1).map(|j| found[j]), found.get(i + 2)) {
+        (Some(before), _) => b - 2.0 * a + before,
+        (None, Some(after)) => after - 2.0 * b + a,
+        _ => 0.0,
+    };
+    linear - 0.5 * second * f * (1.0 - f)
+}
+
+/// The largest step from `at` that every place of the pass allows.
+fn next(family: &Family, target: Target, at: f64, guess: f64, last: f64) -> f64 {
+    let Some((from, to)) = family.along(at) else { return guess };
+    let allowed: Vec<f64> = (0..=PLACES)
+        .into_par_iter()
+        .filter_map(|k| place(family, target, at, from + (to - from) * count(k) / count(PLACES), (guess, last)))
+        .collect();
+    let least = allowed.into_iter().fold(f64::INFINITY, f64::min);
+    if least.is_finite() { least * USED } else { (last - at).max(guess) }
+}
+
+/// The step that one place allows; `None` where there is no pass.
+fn place(family: &Family, target: Target, at: f64, along: f64, (guess, last): (f64, f64)) -> Option<f64> {
+    let a = family.contact(at, along, None)?;
+    let tangent = tangent(family, at, along, &a)?;
+    step(family, target, (at, along), (&a, tangent), (guess, last))
+}
+
+/// The step from a contact, of a pass with this tangent, that the target allows; what would lie beyond `last` is told
+/// from the share of the step up to there.
+fn step(
+    family: &Family,
+    target: Target,
+    (at, along): (f64, f64),
+    (a, tangent): (&Contact, Vec3),
+    (guess, last): (f64, f64),
+) -> Option<f64> {
+    const ROUNDS: u32 = 8;
+    let mut step = guess;
+    for _ in 0..ROUNDS {
+        if at + step > last {
+            step = last - at;
+            let share = share(family, target, a, &family.contact(last, along, Some(a))?, tangent);
+            if share <= 1.0 {
+                return Some(step / share.max(1e-3));
+            }
+        }
+        let Some(b) = family.contact(at + step, along, Some(a)) else {
+            step *= 0.5;
+            continue;
+        };
+        let share = share(family, target, a, &b, tangent);
+        if !(share > 0.0) {
+            step *= 2.0;
+            continue;
+        }
+        let factor = (1.0 / share).clamp(0.25, 4.0);
+        step *= factor;
+        if (factor - 1.0).abs() < 2e-4 {
+            break;
+        }
+    }
+    Some(step)
+}
+
+fn tangent(family: &Family, at: f64, along: f64, a: &Contact) -> Option<Vec3> {
+    let (from, to) = family.along(at)?;
+    let d = 1e-4 * (to - from) * if along > 0.5 * (from + to) { -1.0 } else { 1.0 };
+    let b = family.contact(at, along + d, Some(a))?;
+    (b.centre - a.centre).try_normalize(1e-12)
+}
+
+/// Passes whose distance is used up everywhere: for each of [`CURVE`] places along, *across* of every pass. All passes
+/// run from end to end, so that the place that takes the most of them decides about their number.
+pub(super) fn curves(family: &Family, target: Target) -> Result<Vec<Vec<[f64; 2]>>, String> {
+    let (first, last) = family.across();
+    let Some((from, to)) = family.along(first) else { return Err("no pass meets the surface".into()) };
+    let at = |k: usize| from + (to - from) * count(k) / count(CURVE - 1);
+    let mut columns: Vec<Vec<f64>> = vec![vec![first]; CURVE];
+    while columns.iter().any(|c| c[c.len() - 1] < last) {
+        let front: Vec<[f64; 2]> = columns.iter().enumerate().map(|(k, c)| [at(k), c[c.len() - 1].min(last)]).collect();
+        let steps: Vec<Option<f64>> = (0..CURVE).into_par_iter().map(|k| ahead(family, target, &front, k, last)).collect();
+        for (column, step) in columns.iter_mut().zip(steps) {
+            let end = column[column.len() - 1];
+            let step = step.unwrap_or(0.0);
+            if !(step > 1e-7 * (last - first)) || column.len() > MOST {
+                return Err(format!("the height of cusps asks for more than {MOST} passes"));
+            }
+            if end < last {
+                column.push(end + step * USED);
+            }
+        }
+    }
+    let used = |c: &Vec<f64>| {
+        let n = c.len() - 1;
+        count(n - 1) + (last - c[n - 1]) / (c[n] - c[n - 1])
+    };
+    let passes = columns.iter().map(used).fold(1.0, f64::max).ceil();
+    let pass = |j: f64| -> Vec<[f64; 2]> {
+        let place = |(k, c): (usize, &Vec<f64>)| [at(k), at_count(c, used(c) * j / passes).clamp(first, last)];
+        columns.iter().enumerate().map(place).collect()
+    };
+    // The number of passes is below MOST.
+    Ok((0..=passes as u32).map(|j| pass(f64::from(j))).collect())
+}
+
+/// Places along a pass of constant height of cusps.
+const CURVE: usize = 129;
+
+/// The step from a place of a curved front.
+fn ahead(family: &Family, target: Target, front: &[[f64; 2]], k: usize, last: f64) -> Option<f64> {
+    let [along, across] = front[k];
+    if across >= last {
+        return Some(1.0);
+    }
+    let other = front[if k + 1 < front.len() { k + 1 } else { k - 1 }];
+    let a = family.contact(across, along, None)?;
+    let share = 1e-3;
+    let b = family.contact(across + (other[1] - across) * share, along + (other[0] - along) * share, Some(&a))?;
+    let tangent = (b.centre - a.centre).try_normalize(1e-12)?;
+    step(family, target, (across, along), (&a, tangent), (0.02 * last.max(1e-9), last))
+}
+
+/// The distance of two passes as a share of what is allowed.
+fn share(family: &Family, target: Target, a: &Contact, b: &Contact, tangent: Vec3) -> f64 {
+    match target {
+        Target::Step(step) => {
+            let apart = b.foot.point - a.foot.point;
+            (apart - tangent * apart.dot(&tangent)).norm() / step
+        }
+        Target::Cusp(h) => {
+            let flat = ridge::across(a, b, tangent).norm() / (2.0 * (h * (2.0 * family.ball - h)).sqrt());
+            let height = ridge::height(&family.tree, family.ball, a, b, tangent);
+            // Where the ball cannot reach the surface, what stays is no cusp: passes need not be any closer there.
+            const CLOSEST: f64 = 4.0;
+            if height.is_finite() { (height.max(0.0) / h).sqrt().min(CLOSEST * flat) } else { flat }
+        }
+    }
+}
