@@ -198,6 +198,9 @@ pub struct Pass {
     pub tip: f64,
     /// How far into the surface and out of it the path may be, as seen by the ball.
     pub band: Band,
+    /// How far the path may be to the side of the track, mm, at equidistant parameters from 0 to 1: what the distance
+    /// to its neighbours leaves. Empty: as far as it likes.
+    pub room: Vec<f64>,
 }
 
 /// A cut along an exact planar curve in the XY plane, at one or several heights.

@@ -40,6 +40,8 @@ pub struct Question {
     pub accuracy: f64,
 }
 
+/// Distances above what is enough are told up to so much more, mm.
+const CLEAR: f64 = 2.0;
 /// Evaluations for one way before its bounds are reported in place of values.
 const BUDGET: u32 = 50_000;
 
@@ -63,7 +65,7 @@ pub fn extremes(
     let way = to - from;
     let length = way.norm();
     let along = if length > 0.0 { way / length } else { Vec3::zeros() };
-    let within = if question.little.is_finite() { f64::INFINITY } else { question.enough + length + 1.0 };
+    let within = if question.little.is_finite() { f64::INFINITY } else { question.enough + CLEAR };
     let look = |s: f64, hint: Option<&Foot>| {
         let x = from + along * s;
         let foot = tree.nearest_within(x, hint, within);

@@ -49,7 +49,9 @@ pub fn fewest(ribbon: &Ribbon, head: Point2, tail: Point2) -> Option<Vec<Knot>> 
     let course = Course { gates: &gates, end: n - 1, target: Some(target) };
     let effort = Effort { beam: 2, tries: 3, all: false };
     let root = Vertex { at: head, next: 1 };
-    let chain = Search::default().run(&course, &[root], Goal::Target, effort).ok()?;
+    // No path needs more links than there are gates.
+    let most = u32::try_from(n).unwrap_or(u32::MAX);
+    let chain = Search::new(most).run(&course, &[root], Goal::Target, effort).ok()?;
     let knot = |v: &Vertex| Knot { at: Point2::from(v.point() * STEP), next: v.next };
     Some(chain.iter().skip(1).map(knot).collect())
 }

@@ -104,6 +104,7 @@ struct Task<'a> {
     /// Range of the distance from the exact track along the normal, mm.
     low: f64,
     high: f64,
+    room: &'a [f64],
 }
 
 fn fit(pass: &Pass, capabilities: &Capabilities) -> Result<Chain, Trouble> {
@@ -118,6 +119,7 @@ fn fit(pass: &Pass, capabilities: &Capabilities) -> Result<Chain, Trouble> {
         ball: pass.track.radius,
         low: reserved - pass.band.into,
         high: pass.band.out - reserved,
+        room: &pass.room,
     };
     let lost = |t: f64| Trouble { at: track.at(t, None).map_or_else(Point3::origin, |c| c.centre), lost: true };
     let (Some(first), Some(last)) = (track.at(0.0, None), track.at(1.0, None)) else { return Err(lost(0.5)) };
@@ -200,7 +202,7 @@ impl Task<'_> {
         let mut rest_t = places;
         while let (Some(&(to, depth)), Some(&to_t)) = (rest.last(), rest_t.last()) {
             let from = out[out.len() - 1];
-            if from.steps == to.steps || self.holds(&from, &to) {
+            if from.steps == to.steps || self.aside(&from, &to, (from_t, to_t)) && self.holds(&from, &to) {
                 out.push(to);
                 rest.pop();
                 rest_t.pop();
@@ -221,6 +223,34 @@ impl Task<'_> {
         }
         out.dedup_by(|b, a| a.steps == b.steps);
         Ok((out, cuts))
+    }
+
+    /// Whether the straight way between two vertices stays beside the track no farther than there is room.
+    fn aside(&self, from: &Vertex, to: &Vertex, (a, b): (f64, f64)) -> bool {
+        const PLACES: u32 = 6;
+        if self.room.is_empty() {
+            return true;
+        }
+        let (p, q) = (self.lattice.centre(from.steps), self.lattice.centre(to.steps));
+        let Some(along) = (q - p).try_normalize(0.0) else { return true };
+        let mut hint = None;
+        (1..PLACES).all(|k| {
+            let t = a + (b - a) * f64::from(k) / f64::from(PLACES);
+            hint = self.track.at(t, hint.as_ref());
+            let Some(contact) = &hint else { return false };
+            let off = contact.centre - p;
+            let side = along.cross(&contact.normal);
+            off.dot(&side).abs() <= self.room_at(t)
+        })
+    }
+
+    /// Room at a parameter, and never less than the grid takes.
+    fn room_at(&self, t: f64) -> f64 {
+        let last = self.room.len() - 1;
+        let x = t.clamp(0.0, 1.0) * crate::math::count(last);
+        let i = (x.floor() as usize).min(last);
+        let (a, b) = (self.room[i], self.room[(i + 1).min(last)]);
+        a.min(b).max(self.lattice.step)
     }
 
     /// Whether the straight way between two vertices stays in the band.

@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use super::march::{self, Target};
+use super::march;
+use super::share::{self, Target};
 use crate::geom::Point2;
 use crate::geom::surface::{Contact, Guide, SurfaceTree, Track, drop_ball};
 use crate::ir::{Along, Spacing, Surface};
@@ -12,6 +13,8 @@ use crate::math::count;
 #[derive(Debug, Clone)]
 pub(super) struct Leg {
     pub track: Track,
+    /// As [`crate::cl::Pass::room`].
+    pub room: Vec<f64>,
     pub last: bool,
 }
 
@@ -51,6 +54,11 @@ impl Family {
             Along::Y => Kind::Line(1, outline(&tree, ball)),
         };
         Family { tree, ball, kind }
+    }
+
+    /// Whether passes lie in planes: their chords do so, too.
+    fn is_plane(&self) -> bool {
+        matches!(self.kind, Kind::Line(..))
     }
 
     /// Range of *across*.
@@ -169,16 +177,18 @@ impl Family {
             Spacing::Step(s) => Target::Step(s),
         };
         let mut tracks = self.tracks(surface, target)?;
+        let mut rooms = if self.is_plane() { vec![Vec::new(); tracks.len()] } else { share::rooms(self, target, &tracks) };
         if tracks.is_empty() {
             return Err("no pass meets the surface".into());
         }
         if surface.zigzag {
-            for track in tracks.iter_mut().skip(1).step_by(2) {
+            for (track, room) in tracks.iter_mut().zip(&mut rooms).skip(1).step_by(2) {
                 *track = track.reversed();
+                room.reverse();
             }
         }
         let mut legs: Vec<Leg> = Vec::with_capacity(2 * tracks.len());
-        for track in tracks {
+        for (track, room) in tracks.into_iter().zip(rooms) {
             let link = match legs.last() {
                 Some(before) if surface.zigzag => self.link(&before.track, &track),
                 _ => None,
@@ -186,8 +196,8 @@ impl Family {
             if let Some(before) = legs.last_mut() {
                 before.last = link.is_none();
             }
-            legs.extend(link.map(|track| Leg { track, last: false }));
-            legs.push(Leg { track, last: false });
+            legs.extend(link.map(|track| Leg { track, room: Vec::new(), last: false }));
+            legs.push(Leg { track, room, last: false });
         }
         if let Some(end) = legs.last_mut() {
             end.last = true;

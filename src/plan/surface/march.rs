@@ -6,23 +6,15 @@
 use rayon::prelude::*;
 
 use super::family::Family;
-use crate::geom::Vec3;
-use crate::geom::surface::{Contact, ridge};
+use super::share::{Place, Target};
 use crate::math::count;
 
-/// What decides.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Target {
-    /// Height of cusps, mm.
-    Cusp(f64),
-    /// Distance on the surface, mm.
-    Step(f64),
-}
-
 /// Places of a pass at which the ridge is computed.
-const PLACES: usize = 96;
+pub(super) const PLACES: usize = 96;
+/// Places that are looked at one after the other, each from the one before.
+const STRETCH: usize = 13;
 /// Share of the allowed distance that is used: what the places between those computed may need.
-const USED: f64 = 0.9995;
+const USED: f64 = 0.998;
 /// More passes than this are a mistake in the tolerance.
 const MOST: usize = 50_000;
 
@@ -76,45 +68,40 @@ fn at_count(found: &[f64], x: f64) -> f64 {
 /// The largest step from `at` that every place of the pass allows.
 fn next(family: &Family, target: Target, at: f64, guess: f64, last: f64) -> f64 {
     let Some((from, to)) = family.along(at) else { return guess };
-    let allowed: Vec<f64> = (0..=PLACES)
-        .into_par_iter()
-        .filter_map(|k| place(family, target, at, from + (to - from) * count(k) / count(PLACES), (guess, last)))
-        .collect();
-    let least = allowed.into_iter().fold(f64::INFINITY, f64::min);
+    let places: Vec<f64> = (0..=PLACES).map(|k| from + (to - from) * count(k) / count(PLACES)).collect();
+    let stretch = |stretch: &[f64]| {
+        let (mut hint, mut least) = (None, f64::INFINITY);
+        for along in stretch {
+            let Some(a) = family.contact(at, *along, hint.as_ref()) else { continue };
+            let place = Place::new(family, a, [*along, at], 0.0, (from, to));
+            let allowed = place.and_then(|place| step(family, target, &place, (guess, last)));
+            least = least.min(allowed.unwrap_or(f64::INFINITY));
+            hint = Some(a);
+        }
+        least
+    };
+    let least = places.par_chunks(STRETCH).map(stretch).reduce(|| f64::INFINITY, f64::min);
     if least.is_finite() { least * USED } else { (last - at).max(guess) }
 }
 
-/// The step that one place allows; `None` where there is no pass.
-fn place(family: &Family, target: Target, at: f64, along: f64, (guess, last): (f64, f64)) -> Option<f64> {
-    let a = family.contact(at, along, None)?;
-    let tangent = tangent(family, at, along, &a)?;
-    step(family, target, (at, along), (&a, tangent), (guess, last))
-}
-
-/// The step from a contact, of a pass with this tangent, that the target allows; what would lie beyond `last` is told
-/// from the share of the step up to there.
-fn step(
-    family: &Family,
-    target: Target,
-    (at, along): (f64, f64),
-    (a, tangent): (&Contact, Vec3),
-    (guess, last): (f64, f64),
-) -> Option<f64> {
+/// The step from a place that the target allows; what would lie beyond `last` is told from the share of the step up to
+/// there.
+fn step(family: &Family, target: Target, place: &Place, (guess, last): (f64, f64)) -> Option<f64> {
     const ROUNDS: u32 = 8;
+    let at = place.at[1];
     let mut step = guess;
     for _ in 0..ROUNDS {
         if at + step > last {
             step = last - at;
-            let share = share(family, target, a, &family.contact(last, along, Some(a))?, tangent);
+            let share = place.share(family, target, last)?;
             if share <= 1.0 {
                 return Some(step / share.max(1e-3));
             }
         }
-        let Some(b) = family.contact(at + step, along, Some(a)) else {
+        let Some(share) = place.share(family, target, at + step) else {
             step *= 0.5;
             continue;
         };
-        let share = share(family, target, a, &b, tangent);
         if !(share > 0.0) {
             step *= 2.0;
             continue;
@@ -126,13 +113,6 @@ fn step(
         }
     }
     Some(step)
-}
-
-fn tangent(family: &Family, at: f64, along: f64, a: &Contact) -> Option<Vec3> {
-    let (from, to) = family.along(at)?;
-    let d = 1e-4 * (to - from) * if along > 0.5 * (from + to) { -1.0 } else { 1.0 };
-    let b = family.contact(at, along + d, Some(a))?;
-    (b.centre - a.centre).try_normalize(1e-12)
 }
 
 /// Passes whose distance is used up everywhere: for each of [`CURVE`] places along, *across* of every pass. All passes
@@ -179,26 +159,8 @@ fn ahead(family: &Family, target: Target, front: &[[f64; 2]], k: usize, last: f6
         return Some(1.0);
     }
     let other = front[if k + 1 < front.len() { k + 1 } else { k - 1 }];
-    let a = family.contact(across, along, None)?;
-    let share = 1e-3;
-    let b = family.contact(across + (other[1] - across) * share, along + (other[0] - along) * share, Some(&a))?;
-    let tangent = (b.centre - a.centre).try_normalize(1e-12)?;
-    step(family, target, (across, along), (&a, tangent), (0.02 * last.max(1e-9), last))
-}
-
-/// The distance of two passes as a share of what is allowed.
-fn share(family: &Family, target: Target, a: &Contact, b: &Contact, tangent: Vec3) -> f64 {
-    match target {
-        Target::Step(step) => {
-            let apart = b.foot.point - a.foot.point;
-            (apart - tangent * apart.dot(&tangent)).norm() / step
-        }
-        Target::Cusp(h) => {
-            let flat = ridge::across(a, b, tangent).norm() / (2.0 * (h * (2.0 * family.ball - h)).sqrt());
-            let height = ridge::height(&family.tree, family.ball, a, b, tangent);
-            // Where the ball cannot reach the surface, what stays is no cusp: passes need not be any closer there.
-            const CLOSEST: f64 = 4.0;
-            if height.is_finite() { (height.max(0.0) / h).sqrt().min(CLOSEST * flat) } else { flat }
-        }
-    }
+    let slope = (other[1] - across) / (other[0] - along);
+    let range = (front[0][0], front[front.len() - 1][0]);
+    let place = Place::new(family, family.contact(across, along, None)?, [along, across], slope, range)?;
+    step(family, target, &place, (0.02 * last.max(1e-9), last))
 }

@@ -6,6 +6,7 @@
 mod entry;
 mod family;
 mod march;
+mod share;
 
 use std::sync::Arc;
 
@@ -165,7 +166,6 @@ impl Planner<'_> {
             self.run(surface, run, tip, heights, origin);
         }
         self.emit(RecordKind::EndOperation(index), origin);
-        self.state.position = None;
     }
 
     /// One stay on the surface: onto it, along it, off it.
@@ -182,7 +182,7 @@ impl Planner<'_> {
             self.linear(*p, origin);
         }
         for leg in run {
-            let pass = Pass { track: leg.track.clone(), tip, band: surface.band };
+            let pass = Pass { track: leg.track.clone(), tip, band: surface.band, room: leg.room.clone() };
             self.emit(RecordKind::Pass(Box::new(pass)), origin);
         }
         let mut way_out = tips(&entry::onto(&last.track.reversed()));

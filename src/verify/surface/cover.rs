@@ -84,7 +84,7 @@ fn most_convex(finish: &Finish) -> f64 {
 }
 
 /// Ridges may be higher than asked for by this share: the accuracy to which the path's own deviation beside them is told.
-const CUSP_SLACK: f64 = 0.01;
+const CUSP_SLACK: f64 = 0.005;
 
 fn too_much(operation: &Operation, cover: &Cover, allowed: f64) -> Finding {
     let w = &cover.left;

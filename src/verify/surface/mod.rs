@@ -5,6 +5,8 @@
 
 mod cover;
 mod moves;
+#[cfg(test)]
+mod tests;
 
 use super::certificate::{Deviation, SurfaceProof};
 use super::finding::Finding;
