@@ -14,9 +14,11 @@
 use core::fmt::Write as _;
 
 use super::lead::{self, LeadPath};
-use super::{Circle, Cl, Contour, Cycle, CycleKind, Effort, Lead, Operation, Pass, Record, RecordKind, RetractTo};
-use crate::geom::surface::Guide;
+use super::{
+    Circle, Cl, Contour, Cycle, CycleKind, Effort, Lead, Operation, Pass, Record, RecordKind, RetractTo,
+};
 use crate::geom::curve::{PlanarCurve, Shape};
+use crate::geom::surface::Guide;
 use crate::geom::{Point2, Point3, Side};
 use crate::ir::{Coolant, Feed, Spindle, Tool};
 use crate::units::LengthUnit;

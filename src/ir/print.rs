@@ -6,8 +6,9 @@
 use core::fmt::Write as _;
 
 use super::{
-    Along, CamEntity, Coolant, CurveEntity, Cut, CutterKind, Entry, Feed, Flank, Interpolation, Machine, NetEntity, Origin,
-    Profile, ProfileTarget, Program, RoughCam, Spacing, Spindle, StepKind, Stock, StockShape, Surface, Tool,
+    Along, CamEntity, Coolant, CurveEntity, Cut, CutterKind, Entry, Feed, Flank, Interpolation, Machine,
+    NetEntity, Origin, Profile, ProfileTarget, Program, RoughCam, Spacing, Spindle, StepKind, Stock,
+    StockShape, Surface, Tool,
 };
 use crate::arena::Handle;
 use crate::geom::cam::Rotation;

@@ -38,8 +38,11 @@ pub fn lower(cl: &Cl, capabilities: &Capabilities, sink: &mut Sink) -> Option<Ta
     let mut messages = Sink::default();
     let fitted = contour::fit_all(cl, capabilities, &mut messages);
     let passes = pass::fit_all(cl, capabilities, &mut messages);
-    let program =
-        if messages.has_errors() { None } else { emit::program(cl, capabilities, (&fitted, &passes), &mut messages) };
+    let program = if messages.has_errors() {
+        None
+    } else {
+        emit::program(cl, capabilities, (&fitted, &passes), &mut messages)
+    };
     let failed = messages.has_errors();
     sink.append(messages);
     program.filter(|_| !failed)

@@ -67,7 +67,8 @@ impl Analyser<'_> {
             self.show_length(p.y),
             self.show_length(p.z)
         );
-        let more = format!("{} of {} joints have a crease of more than {SMOOTH} deg", sharp.len(), joints.len());
+        let more =
+            format!("{} of {} joints have a crease of more than {SMOOTH} deg", sharp.len(), joints.len());
         self.report(Diagnostic::new(&geometry::CREASE, at, message).note(more).help(
             "put the poles on both sides of the joint and the joint's own pole on one line for a smooth surface",
         ));
@@ -88,7 +89,8 @@ impl Analyser<'_> {
                 return None;
             }
         };
-        match read_poles(&text, &|x| Quantity::bare(x).land(Dim::LENGTH, self.program.units).map(|q| q.value)) {
+        match read_poles(&text, &|x| Quantity::bare(x).land(Dim::LENGTH, self.program.units).map(|q| q.value))
+        {
             Ok(poles) => Some(poles),
             Err((line, what)) => {
                 let message = format!("{path}, line {line}: {what}");
@@ -164,8 +166,10 @@ impl Analyser<'_> {
             return Some(tool);
         }
         let declared = self.program.origins[cutter.origin].span;
-        let message = format!("{} is no ball-end cutter: only those finish surfaces in this version", cutter.name);
-        let help = format!("declare one: `CUTTER/ BALL, {}`", self.show_length(cutter.diameter).replace(' ', ""));
+        let message =
+            format!("{} is no ball-end cutter: only those finish surfaces in this version", cutter.name);
+        let help =
+            format!("declare one: `CUTTER/ BALL, {}`", self.show_length(cutter.diameter).replace(' ', ""));
         self.report(
             Diagnostic::new(&planning::NO_BALL, m.word, message).label(declared, "the cutter").help(help),
         );
@@ -282,12 +286,15 @@ fn unsound(issue: &NetIssue, at: Span) -> Diagnostic {
             "up to 16 x 16 poles are one patch; more must be (3m+1) x (3n+1), for m x n bicubic patches",
         ),
         NetIssue::Count { wanted, given } => (
-            format!("the net wants {wanted} poles, each with its weight where there are weights, and has {given}"),
+            format!(
+                "the net wants {wanted} poles, each with its weight where there are weights, and has {given}"
+            ),
             "give the poles row by row",
         ),
-        NetIssue::NotFinite => {
-            ("a pole or weight of the net is not a finite number, or a weight is not positive".into(), "correct it")
-        }
+        NetIssue::NotFinite => (
+            "a pole or weight of the net is not a finite number, or a weight is not positive".into(),
+            "correct it",
+        ),
     };
     Diagnostic::new(&geometry::NET_SHAPE, at, message).help(help)
 }

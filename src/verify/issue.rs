@@ -2,8 +2,8 @@
 
 use sha2::{Digest, Sha256};
 
-use super::certificate::{Certificate, Moves, OperationProof, RAPID_RATE, TIME_MODEL, Time, VERSION};
 use super::Proofs;
+use super::certificate::{Certificate, Moves, OperationProof, RAPID_RATE, TIME_MODEL, Time, VERSION};
 use super::pieces::Proof;
 use super::{ACCURACY, Case, Emitted};
 use crate::readback::{EventKind, Trace, TracePath};

@@ -58,7 +58,8 @@ mod tests;
 mod tree;
 
 pub use certificate::{
-    Certificate, Deviation, Moves, OperationProof, PieceProof, Place, RAPID_RATE, SurfaceProof, TIME_MODEL, Time, VERSION,
+    Certificate, Deviation, Moves, OperationProof, PieceProof, Place, RAPID_RATE, SurfaceProof, TIME_MODEL,
+    Time, VERSION,
 };
 
 use finding::{Finding, Reporter};

@@ -21,9 +21,9 @@ mod later;
 mod operations;
 mod process;
 mod program;
-mod surfaces;
 pub mod reference;
 mod space;
+mod surfaces;
 
 pub use functions::{FUNCTIONS, Function, FunctionId};
 pub use program::STRUCTURE_WORDS;

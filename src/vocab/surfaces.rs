@@ -1,8 +1,8 @@
 //! Surfaces and their finishing.
 
 use super::{
-    Choices, EntityKind, Form, Group, Item, Kind, Member, NOT_NEGATIVE, POSITIVE, Range, Statement, Usage, choices, form,
-    member, slot, value, with, word,
+    Choices, EntityKind, Form, Group, Item, Kind, Member, NOT_NEGATIVE, POSITIVE, Range, Statement, Usage,
+    choices, form, member, slot, value, with, word,
 };
 use crate::units::Dim;
 

@@ -286,4 +286,6 @@ pub const ALL: &[&Code] = &[
     &NO_SUCH_SIDE,
     &POWER_ORDER,
     &AFTER_FINI,
-    &IGNORED, &NO_SPACING];
+    &IGNORED,
+    &NO_SPACING,
+];

@@ -61,7 +61,8 @@ pub fn drop_ball(tree: &SurfaceTree, radius: f64, x: f64, y: f64, hint: Option<&
             if beside(centre, &foot) >= radius {
                 return None;
             }
-            centre.z = foot.point.z + (radius * radius - beside(centre, &foot) * beside(centre, &foot)).sqrt();
+            centre.z =
+                foot.point.z + (radius * radius - beside(centre, &foot) * beside(centre, &foot)).sqrt();
             continue;
         }
         // Only a step up may be trusted blindly: what is nearer than the radius must be cleared.
@@ -148,9 +149,14 @@ mod tests {
     #[test]
     fn a_ball_rests_where_the_highest_point_of_the_surface_holds_it() {
         let tree = cavity();
-        for (radius, x, y) in
-            [(5.0, 31.0, 22.0), (8.0, 3.0, 3.5), (8.0, 57.0, 45.0), (5.0, -2.0, 20.0), (8.0, 30.0, 50.0), (3.0, 7.0, 40.0)]
-        {
+        for (radius, x, y) in [
+            (5.0, 31.0, 22.0),
+            (8.0, 3.0, 3.5),
+            (8.0, 57.0, 45.0),
+            (5.0, -2.0, 20.0),
+            (8.0, 30.0, 50.0),
+            (3.0, 7.0, 40.0),
+        ] {
             let rest = drop_ball(&tree, radius, x, y, None).expect("a contact");
             let brute = brute(&tree, radius, x, y);
             assert!((0.0..2e-3).contains(&(rest.centre.z - brute)), "{radius} {x} {y}: {rest:?}, {brute}");

@@ -182,7 +182,13 @@ mod tests {
     fn bowl() -> SurfaceTree {
         let z = [[0.0, 4.0, 4.0, 0.0], [4.0, 16.0, 16.0, 4.0], [4.0, 16.0, 16.0, 4.0], [0.0, 4.0, 4.0, 0.0]];
         let poles: Vec<Point3> = (0..16u32)
-            .map(|k| Point3::new(f64::from(k / 4) * 20.0, f64::from(k % 4) * 20.0, z[k as usize / 4][k as usize % 4]))
+            .map(|k| {
+                Point3::new(
+                    f64::from(k / 4) * 20.0,
+                    f64::from(k % 4) * 20.0,
+                    z[k as usize / 4][k as usize % 4],
+                )
+            })
             .collect();
         SurfaceTree::new(Net::new(4, 4, &poles, None).expect("a net"), 5.0)
     }
@@ -193,11 +199,15 @@ mod tests {
         let (from, to) = (Point3::new(12.0, 20.0, 12.2), Point3::new(30.0, 24.0, 14.9));
         let question = Question { enough: f64::INFINITY, little: 0.0, accuracy: 1e-7 };
         let found = extremes(&tree, from, to, &question, None);
-        let samples: Vec<f64> =
-            (0..=2000u32).map(|k| tree.nearest(from + (to - from) * (f64::from(k) / 2000.0), None).distance).collect();
+        let samples: Vec<f64> = (0..=2000u32)
+            .map(|k| tree.nearest(from + (to - from) * (f64::from(k) / 2000.0), None).distance)
+            .collect();
         let least = samples.iter().copied().fold(f64::INFINITY, f64::min);
         let most = samples.iter().copied().fold(0.0, f64::max);
-        assert!(found.least.distance <= least + 1e-9 && found.least.distance > least - 1e-5, "{found:?} {least}");
+        assert!(
+            found.least.distance <= least + 1e-9 && found.least.distance > least - 1e-5,
+            "{found:?} {least}"
+        );
         assert!(found.most.distance >= most - 1e-7 && found.most.distance < most + 1e-5, "{found:?} {most}");
     }
 }

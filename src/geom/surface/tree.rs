@@ -103,7 +103,8 @@ impl Bend {
             let value = middle.dot(&c);
             (value, spread + Bend::ROUNDING * (size.dot(&c.abs()) + spread))
         });
-        let low = |k: usize, i: usize| self.squares[k] * (1.0 - Bend::ROUNDING) - products[i].0 - products[i].1;
+        let low =
+            |k: usize, i: usize| self.squares[k] * (1.0 - Bend::ROUNDING) - products[i].0 - products[i].1;
         let (h11, h22) = (low(0, 0), low(1, 2));
         let most = (self.mixed.0 - products[1].0).abs() + self.mixed.1 + products[1].1;
         h11 > 0.0 && h22 > 0.0 && h11 * h22 > most * most * (1.0 + Bend::ROUNDING)
@@ -168,7 +169,8 @@ impl Slab {
         let offset = x - self.centre;
         let along = offset.dot(&self.axis);
         let beside = (offset.norm_squared() - along * along).max(0.0).sqrt();
-        let (aside, above) = ((beside - self.radius).max(0.0), (along - self.high).max(self.low - along).max(0.0));
+        let (aside, above) =
+            ((beside - self.radius).max(0.0), (along - self.high).max(self.low - along).max(0.0));
         (aside * aside + above * above).sqrt()
     }
 }
@@ -352,8 +354,7 @@ thread_local! {
     static STACK: RefCell<Vec<(f64, u32)>> = const { RefCell::new(Vec::new()) };
 }
 
-const EMPTY: Node =
-    Node { low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3], kind: Kind::Branch(0, 0) };
+const EMPTY: Node = Node { low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3], kind: Kind::Branch(0, 0) };
 
 #[allow(clippy::cast_possible_truncation)]
 fn index(n: usize) -> u32 {
@@ -454,11 +455,7 @@ impl Place {
     fn step(&self, x: Point3, g: [f64; 2], free: [bool; 2]) -> [f64; 2] {
         let (offset, jet) = (x - self.jet.p, &self.jet);
         let [g11, g12, g22] = jet.first();
-        let curved = [
-            g11 - offset.dot(&jet.uu),
-            g12 - offset.dot(&jet.uv),
-            g22 - offset.dot(&jet.vv),
-        ];
+        let curved = [g11 - offset.dot(&jet.uu), g12 - offset.dot(&jet.uv), g22 - offset.dot(&jet.vv)];
         let positive = |h: &[f64; 3]| match free {
             [true, true] => h[0] > 0.0 && h[0] * h[2] > h[1] * h[1] * (1.0 + 1e-9),
             [true, false] => h[0] > 0.0,
@@ -574,7 +571,8 @@ impl Quest<'_> {
             return;
         }
         let patch = &self.tree.net.patches()[leaf.patch];
-        let near = Place::new(patch, self.x, leaf.area.clamp(if own { self.best.uv } else { leaf.area.middle() }));
+        let near =
+            Place::new(patch, self.x, leaf.area.clamp(if own { self.best.uv } else { leaf.area.middle() }));
         if !convex {
             let mut budget = MOST_PIECES;
             return self.pieces(leaf, &mut budget);

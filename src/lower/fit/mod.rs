@@ -22,9 +22,9 @@ mod guard;
 mod lines;
 pub mod measure;
 pub mod nurbs;
+pub mod ribbon;
 #[cfg(test)]
 mod samples;
-pub mod ribbon;
 mod search;
 mod spirals;
 #[cfg(test)]

@@ -38,8 +38,7 @@ pub fn fewest(ribbon: &Ribbon, head: Point2, tail: Point2) -> Option<Vec<Knot>> 
         return Some(Vec::new());
     }
     let grid = |points: &[Point2]| points.iter().map(|p| p.coords / STEP).collect();
-    let gates =
-        Gates { l: grid(&ribbon.left), r: grid(&ribbon.right), lap: Vec2::zeros(), closed: false };
+    let gates = Gates { l: grid(&ribbon.left), r: grid(&ribbon.right), lap: Vec2::zeros(), closed: false };
     let sound = (0..n).all(|i| gates.left(i).iter().chain(gates.right(i).iter()).all(|c| c.is_finite()));
     if !sound || !ordered(&gates) {
         return None;

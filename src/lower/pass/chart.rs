@@ -61,7 +61,9 @@ impl Chart {
             if let Some((_, before)) = i.checked_sub(1).and_then(|j| found.get(j)) {
                 let chord = contact.centre - before.centre;
                 let length = chord.norm();
-                let rise = |c: &Contact| if length > 0.0 { (chord.dot(&c.normal) / length).clamp(-1.0, 1.0) } else { 0.0 };
+                let rise = |c: &Contact| {
+                    if length > 0.0 { (chord.dot(&c.normal) / length).clamp(-1.0, 1.0) } else { 0.0 }
+                };
                 let (a, b) = (rise(before), rise(contact));
                 let way = heading + math::asin(a);
                 at += Vec2::new(math::cos(way), math::sin(way)) * length;
@@ -170,12 +172,7 @@ fn turn(a: &Contact, b: &Contact) -> f64 {
 }
 
 /// Stations up to `to`, halved until chords deviate little.
-fn refine(
-    track: &Track,
-    to: (f64, Contact),
-    sagitta: f64,
-    found: &mut Vec<(f64, Contact)>,
-) -> Option<()> {
+fn refine(track: &Track, to: (f64, Contact), sagitta: f64, found: &mut Vec<(f64, Contact)>) -> Option<()> {
     let mut stack = vec![to];
     while let Some((t, contact)) = stack.pop() {
         let (from, before) = *found.last()?;

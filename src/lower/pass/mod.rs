@@ -121,7 +121,8 @@ fn fit(pass: &Pass, capabilities: &Capabilities) -> Result<Chain, Trouble> {
         high: pass.band.out - reserved,
         room: &pass.room,
     };
-    let lost = |t: f64| Trouble { at: track.at(t, None).map_or_else(Point3::origin, |c| c.centre), lost: true };
+    let lost =
+        |t: f64| Trouble { at: track.at(t, None).map_or_else(Point3::origin, |c| c.centre), lost: true };
     let (Some(first), Some(last)) = (track.at(0.0, None), track.at(1.0, None)) else { return Err(lost(0.5)) };
     let ends = [first, last].map(|c| task.vertex(&c, 0.5 * (task.low + task.high)));
     let [Some(head), Some(tail)] = ends else { return Err(Trouble { at: first.centre, lost: false }) };
@@ -157,7 +158,8 @@ impl Task<'_> {
         let mut out = vec![head];
         for piece in chart.pieces() {
             let (low, high) = (self.low + margin, self.high - margin);
-            let (start, end) = (out.last().copied().unwrap_or(head), (piece.1 == chart.len() - 1).then_some(tail));
+            let (start, end) =
+                (out.last().copied().unwrap_or(head), (piece.1 == chart.len() - 1).then_some(tail));
             let end = end.or_else(|| self.vertex(&chart.contact(piece.1), 0.5 * (low + high)));
             let from = chart.place(piece.0, start.off.clamp(low, high));
             let to = chart.place(piece.1, end.map_or(0.5 * (low + high), |v| v.off).clamp(low, high));
@@ -170,7 +172,9 @@ impl Task<'_> {
                     }
                 }
                 // Gates that cross: every station becomes a vertex, and repair has nothing to do.
-                None => out.extend((piece.0 + 1..piece.1).filter_map(|i| self.vertex(&chart.contact(i), 0.5 * (low + high)))),
+                None => out.extend(
+                    (piece.0 + 1..piece.1).filter_map(|i| self.vertex(&chart.contact(i), 0.5 * (low + high))),
+                ),
             }
             out.extend(end);
         }
@@ -193,7 +197,8 @@ impl Task<'_> {
 
     /// The chain with failing links cut in two until they hold; with the number of cuts.
     fn repaired(&self, chart: &Chart, vertices: &[Vertex]) -> Result<(Vec<Vertex>, u32), Trouble> {
-        let mut out: Vec<Vertex> = vec![*vertices.first().ok_or(Trouble { at: Point3::origin(), lost: true })?];
+        let mut out: Vec<Vertex> =
+            vec![*vertices.first().ok_or(Trouble { at: Point3::origin(), lost: true })?];
         let mut cuts = 0;
         let mut places: Vec<f64> = chart.parameters(vertices);
         places.reverse();
@@ -258,7 +263,13 @@ impl Task<'_> {
         let (least, most) = (self.ball + self.low, self.ball + self.high);
         let question = Question { enough: least, little: most, accuracy: SLACK };
         let hint: Foot = from.foot;
-        let found = extremes(&self.track.tree, self.lattice.centre(from.steps), self.lattice.centre(to.steps), &question, Some(&hint));
+        let found = extremes(
+            &self.track.tree,
+            self.lattice.centre(from.steps),
+            self.lattice.centre(to.steps),
+            &question,
+            Some(&hint),
+        );
         found.least.distance >= least - SLACK && found.most.distance <= most + SLACK
     }
 }

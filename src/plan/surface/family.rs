@@ -177,7 +177,11 @@ impl Family {
             Spacing::Step(s) => Target::Step(s),
         };
         let mut tracks = self.tracks(surface, target)?;
-        let mut rooms = if self.is_plane() { vec![Vec::new(); tracks.len()] } else { share::rooms(self, target, &tracks) };
+        let mut rooms = if self.is_plane() {
+            vec![Vec::new(); tracks.len()]
+        } else {
+            share::rooms(self, target, &tracks)
+        };
         if tracks.is_empty() {
             return Err("no pass meets the surface".into());
         }

@@ -27,7 +27,11 @@ pub(super) fn places(family: &Family, target: Target) -> Result<Vec<f64>, String
     while at < last {
         let step = next(family, target, at, guess, last);
         if !(step > 1e-7 * whole) || found.len() > MOST {
-            let what = if let Target::Cusp(h) = target { format!("a height of cusps of {h} mm") } else { "this step".into() };
+            let what = if let Target::Cusp(h) = target {
+                format!("a height of cusps of {h} mm")
+            } else {
+                "this step".into()
+            };
             return Err(format!("{what} asks for more than {MOST} passes"));
         }
         at += step;
@@ -123,8 +127,10 @@ pub(super) fn curves(family: &Family, target: Target) -> Result<Vec<Vec<[f64; 2]
     let at = |k: usize| from + (to - from) * count(k) / count(CURVE - 1);
     let mut columns: Vec<Vec<f64>> = vec![vec![first]; CURVE];
     while columns.iter().any(|c| c[c.len() - 1] < last) {
-        let front: Vec<[f64; 2]> = columns.iter().enumerate().map(|(k, c)| [at(k), c[c.len() - 1].min(last)]).collect();
-        let steps: Vec<Option<f64>> = (0..CURVE).into_par_iter().map(|k| ahead(family, target, &front, k, last)).collect();
+        let front: Vec<[f64; 2]> =
+            columns.iter().enumerate().map(|(k, c)| [at(k), c[c.len() - 1].min(last)]).collect();
+        let steps: Vec<Option<f64>> =
+            (0..CURVE).into_par_iter().map(|k| ahead(family, target, &front, k, last)).collect();
         for (column, step) in columns.iter_mut().zip(steps) {
             let end = column[column.len() - 1];
             let step = step.unwrap_or(0.0);
@@ -142,7 +148,8 @@ pub(super) fn curves(family: &Family, target: Target) -> Result<Vec<Vec<[f64; 2]
     };
     let passes = columns.iter().map(used).fold(1.0, f64::max).ceil();
     let pass = |j: f64| -> Vec<[f64; 2]> {
-        let place = |(k, c): (usize, &Vec<f64>)| [at(k), at_count(c, used(c) * j / passes).clamp(first, last)];
+        let place =
+            |(k, c): (usize, &Vec<f64>)| [at(k), at_count(c, used(c) * j / passes).clamp(first, last)];
         columns.iter().enumerate().map(place).collect()
     };
     // The number of passes is below MOST.

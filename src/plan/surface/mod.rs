@@ -132,9 +132,11 @@ impl Planner<'_> {
             self.show(surface.clearance),
             self.show(highest)
         );
-        let help = format!("write `CLEARP/ {}`", crate::cl::print::number((highest + 5.0).ceil() / self.program.units.in_mm()));
-        let diagnostic =
-            Diagnostic::new(&codes::CLEARANCE_TOO_LOW, self.span(origin), message).help(help);
+        let help = format!(
+            "write `CLEARP/ {}`",
+            crate::cl::print::number((highest + 5.0).ceil() / self.program.units.in_mm())
+        );
+        let diagnostic = Diagnostic::new(&codes::CLEARANCE_TOO_LOW, self.span(origin), message).help(help);
         self.report(diagnostic, origin);
         false
     }
@@ -159,8 +161,14 @@ impl Planner<'_> {
         let tip = finish.radius;
         let bottom = finish.tree.bounds().0.z;
         let guard = Guard { surface: Some(finish), top, bottom, ..Guard::default() };
-        let operation =
-            Operation { name: name.to_owned(), kind: "SURFAC", origin, band: surface.band, guard, effort: None };
+        let operation = Operation {
+            name: name.to_owned(),
+            kind: "SURFAC",
+            origin,
+            band: surface.band,
+            guard,
+            effort: None,
+        };
         let index = self.begin(operation, origin);
         for run in legs.split_inclusive(|leg| leg.last) {
             self.run(surface, run, tip, heights, origin);
@@ -172,7 +180,9 @@ impl Planner<'_> {
     fn run(&mut self, surface: &Surface, run: &[Leg], tip: f64, heights: Heights, origin: Handle<Origin>) {
         let (Some(first), Some(last)) = (run.first(), run.last()) else { return };
         let way_in = entry::onto(&first.track);
-        let tips = |points: &[Point3]| -> Vec<Point3> { points.iter().map(|p| Point3::new(p.x, p.y, p.z - tip)).collect() };
+        let tips = |points: &[Point3]| -> Vec<Point3> {
+            points.iter().map(|p| Point3::new(p.x, p.y, p.z - tip)).collect()
+        };
         let way_in = tips(&way_in);
         if let Some(start) = way_in.first() {
             self.rapid(Point3::new(start.x, start.y, heights.clearance), origin);

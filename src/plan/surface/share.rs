@@ -76,7 +76,8 @@ const ASIDE: (f64, f64) = (0.0015, 0.05);
 /// How far the path of each pass may be to the side: half of what its distance from both neighbours leaves, at
 /// equidistant parameters.
 pub(super) fn rooms(family: &Family, target: Target, tracks: &[Track]) -> Vec<Vec<f64>> {
-    let gaps: Vec<Vec<f64>> = tracks.par_windows(2).map(|pair| gap(family, target, &pair[0], &pair[1])).collect();
+    let gaps: Vec<Vec<f64>> =
+        tracks.par_windows(2).map(|pair| gap(family, target, &pair[0], &pair[1])).collect();
     let own = |j: usize, k: usize| {
         let sides = [j.checked_sub(1), Some(j)].into_iter().flatten().filter_map(|i| gaps.get(i)?.get(k));
         sides.copied().fold(f64::INFINITY, f64::min)
@@ -92,7 +93,8 @@ fn gap(family: &Family, target: Target, a: &Track, b: &Track) -> Vec<f64> {
         let d = if t < 0.5 { 1e-4 } else { -1e-4 };
         let way = (a.at(t + d, Some(&contact))?.centre - contact.centre) / d;
         let tangent = way.try_normalize(1e-9)?;
-        let place = Place { contact, at: [t, 0.0], tangent, speed: way.norm(), slope: 0.0, range: (0.0, 1.0) };
+        let place =
+            Place { contact, at: [t, 0.0], tangent, speed: way.norm(), slope: 0.0, range: (0.0, 1.0) };
         let (other, tangent) = place.opposite(&|t| b.at(t, None))?;
         let apart = ridge::across(&contact, &other, tangent).norm();
         let spare = match target {

@@ -66,7 +66,8 @@ pub(super) fn check(
     if let Some(allowed) = allowed.filter(|a| !(cover.bound <= *a)) {
         findings.push(too_much(operation, &cover, allowed - ACCURACY));
     }
-    if let Some((cusp, h)) = cover.cusp.zip(finish.cusp).filter(|(c, h)| !(c.value <= h * (1.0 + CUSP_SLACK))) {
+    if let Some((cusp, h)) = cover.cusp.zip(finish.cusp).filter(|(c, h)| !(c.value <= h * (1.0 + CUSP_SLACK)))
+    {
         findings.push(too_high(operation, &cusp, h));
     }
     cover
@@ -273,7 +274,8 @@ impl<'a> Field<'a> {
                 }
             }
         }
-        let ends = [swept.from, swept.to].map(|p| enters(at.p - p, at.n, self.radius).unwrap_or(f64::INFINITY));
+        let ends =
+            [swept.from, swept.to].map(|p| enters(at.p - p, at.n, self.radius).unwrap_or(f64::INFINITY));
         ends[0].min(ends[1])
     }
 }
@@ -301,9 +303,8 @@ impl Bend {
     fn new(piece: &Patch, tiles: u32) -> Bend {
         let scale = f64::from(tiles);
         let [u, v] = [piece.hodograph(0), piece.hodograph(1)];
-        let most = |p: &Patch| {
-            p.homogeneous().iter().map(|h| Vec3::new(h.x, h.y, h.z).norm()).fold(0.0, f64::max)
-        };
+        let most =
+            |p: &Patch| p.homogeneous().iter().map(|h| Vec3::new(h.x, h.y, h.z).norm()).fold(0.0, f64::max);
         // A rational patch bends with its weights as well: a generous factor that refinement makes harmless.
         let rational = if piece.is_rational() { 4.0 } else { 1.0 };
         Bend {
@@ -348,8 +349,9 @@ impl Tile<'_> {
             let jet = patch.jet(u, v);
             jet.normal().map(|n| Corner { p: jet.p, n, uv: [u, v] })
         };
-        let corners = [(cell.u.0, cell.v.0), (cell.u.0, cell.v.1), (cell.u.1, cell.v.0), (cell.u.1, cell.v.1)]
-            .map(|(u, v)| corner(u, v));
+        let corners =
+            [(cell.u.0, cell.v.0), (cell.u.0, cell.v.1), (cell.u.1, cell.v.0), (cell.u.1, cell.v.1)]
+                .map(|(u, v)| corner(u, v));
         let [Some(a), Some(b), Some(c), Some(d)] = corners else {
             // No normal: a collapsed corner is met by its neighbours.
             return (size[axis] > SMALLEST).then_some(axis);
@@ -459,14 +461,20 @@ impl Tile<'_> {
     fn deviation(&self, swept: &Swept, at: &Corner, height: f64) -> f64 {
         let q = at.p + at.n * height;
         let axis = swept.to - swept.from;
-        let t = if axis.norm_squared() > 0.0 { ((q - swept.from).dot(&axis) / axis.norm_squared()).clamp(0.0, 1.0) } else { 0.0 };
+        let t = if axis.norm_squared() > 0.0 {
+            ((q - swept.from).dot(&axis) / axis.norm_squared()).clamp(0.0, 1.0)
+        } else {
+            0.0
+        };
         let centre = swept.from + axis * t;
         let along = axis.try_normalize(0.0).unwrap_or_default();
-        let foot = Foot { patch: self.patch, uv: at.uv, point: at.p, distance: self.field.ball, certain: 0.0 };
+        let foot =
+            Foot { patch: self.patch, uv: at.uv, point: at.p, distance: self.field.ball, certain: 0.0 };
         // Where the move is not parallel to the surface, it cuts beside the foot: at right angles to the move.
         let foot = self.field.tree.nearby(centre, &foot);
         let offset = foot.point - centre;
-        let (tilt, level) = (offset.dot(&along), along - offset * (offset.dot(&along) / offset.norm_squared()));
+        let (tilt, level) =
+            (offset.dot(&along), along - offset * (offset.dot(&along) / offset.norm_squared()));
         let beside = foot.point - level * (tilt / level.dot(&along).max(0.1));
         let beside = self.field.tree.nearby(beside, &foot).point - centre;
         let across = (beside - along * beside.dot(&along)).norm();

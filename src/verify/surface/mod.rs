@@ -45,7 +45,13 @@ pub(super) fn all(case: &Case<'_>) -> (Vec<Finding>, Vec<Proof>) {
 }
 
 fn proof(finish: &Finish, swept: &moves::Measured, cover: &cover::Cover) -> SurfaceProof {
-    let at = |e: &moves::Worst| Deviation { value: e.value.max(0.0), line: e.line, x: e.at.x, y: e.at.y, z: e.at.z };
+    let at = |e: &moves::Worst| Deviation {
+        value: e.value.max(0.0),
+        line: e.line,
+        x: e.at.x,
+        y: e.at.y,
+        z: e.at.z,
+    };
     SurfaceProof {
         radius: finish.radius,
         leave: finish.leave,

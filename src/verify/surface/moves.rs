@@ -92,13 +92,7 @@ fn is_pass(case: &Case<'_>, placed: &Placed<'_>) -> bool {
     record.is_some_and(|r| matches!(r.kind, RecordKind::Pass(_)))
 }
 
-fn one(
-    case: &Case<'_>,
-    operation: &Operation,
-    finish: &Finish,
-    placed: &Placed<'_>,
-    pass: bool,
-) -> One {
+fn one(case: &Case<'_>, operation: &Operation, finish: &Finish, placed: &Placed<'_>, pass: bool) -> One {
     let cut = placed.cut;
     let mut result = One { into: Worst::NONE, pass: None, findings: Vec::new() };
     if !cut.known.iter().all(|k| *k) {

@@ -64,7 +64,8 @@ fn a_ball_that_does_not_fit_is_lifted_and_says_what_stays() {
 /// Codes that come when every pass's vertex number `n` is moved in z by `steps` of the grid.
 fn bent(n: usize, steps: i64) -> Vec<&'static str> {
     let build = build("ZIGZAG, U, CUSP, 0.02");
-    let (cl, mut target) = (build.cl.as_ref().expect("CL"), build.outputs[0].target.clone().expect("a target"));
+    let (cl, mut target) =
+        (build.cl.as_ref().expect("CL"), build.outputs[0].target.clone().expect("a target"));
     let vertex = passes(cl, &mut target).nth(n).expect("a vertex");
     *vertex += steps;
     let dialect = load("linuxcnc", &MemoryFiles::default(), &mut SourceMap::default()).expect("a post");
