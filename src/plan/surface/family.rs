@@ -57,7 +57,7 @@ impl Family {
     }
 
     /// Whether passes lie in planes: their chords do so, too.
-    fn is_plane(&self) -> bool {
+    pub(super) fn is_plane(&self) -> bool {
         matches!(self.kind, Kind::Line(..))
     }
 

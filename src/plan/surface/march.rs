@@ -15,6 +15,9 @@ pub(super) const PLACES: usize = 96;
 const STRETCH: usize = 13;
 /// Share of the allowed distance that is used: what the places between those computed may need.
 const USED: f64 = 0.998;
+/// The same for passes in planes: at corners and on steep flanks, where they end at all angles, ridges rise more between
+/// the places that are looked at.
+const USED_IN_PLANES: f64 = 0.93;
 /// More passes than this are a mistake in the tolerance.
 const MOST: usize = 50_000;
 
@@ -69,6 +72,10 @@ fn at_count(found: &[f64], x: f64) -> f64 {
     linear - 0.5 * second * f * (1.0 - f)
 }
 
+fn used(family: &Family, target: Target) -> f64 {
+    if family.is_plane() && matches!(target, Target::Cusp(_)) { USED_IN_PLANES } else { USED }
+}
+
 /// The largest step from `at` that every place of the pass allows.
 fn next(family: &Family, target: Target, at: f64, guess: f64, last: f64) -> f64 {
     let Some((from, to)) = family.along(at) else { return guess };
@@ -85,7 +92,7 @@ fn next(family: &Family, target: Target, at: f64, guess: f64, last: f64) -> f64 
         least
     };
     let least = places.par_chunks(STRETCH).map(stretch).reduce(|| f64::INFINITY, f64::min);
-    if least.is_finite() { least * USED } else { (last - at).max(guess) }
+    if least.is_finite() { least * used(family, target) } else { (last - at).max(guess) }
 }
 
 /// The step from a place that the target allows; what would lie beyond `last` is told from the share of the step up to
