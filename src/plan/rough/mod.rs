@@ -37,6 +37,8 @@ use moves::{Move, Plan};
 const CLEAR: f64 = 1.0;
 /// Passes of one level at most.
 const MOST_PASSES: usize = 1000;
+/// Radius by which a blank may seem too small, mm: less than any blank is made to.
+const BLANK_SLACK: f64 = 1e-3;
 
 /// What a plan is made for: one level of one cam.
 pub(super) struct Job {
@@ -201,7 +203,7 @@ impl Planner<'_> {
     fn check_blank(&mut self, rough: &RoughCam, job: &Job, origin: Handle<Origin>) -> bool {
         let (most, _) = job.reach();
         let need = most + job.leave;
-        if job.blank >= need - 1e-9 {
+        if job.blank >= need - BLANK_SLACK {
             return true;
         }
         let stock = &self.program.stocks[rough.stock];
@@ -211,9 +213,10 @@ impl Planner<'_> {
             String::new()
         };
         let message = format!(
-            "the blank has a radius of {}, but the cam{allowance} reaches {}",
+            "the blank has a radius of {}, but the cam{allowance} reaches {}, {} more",
             self.show(job.blank),
-            self.show(need)
+            self.show(need),
+            self.show(need - job.blank)
         );
         let declared = self.span(stock.origin);
         let diagnostic = Diagnostic::new(&STOCK_TOO_SMALL, self.span(origin), message)

@@ -127,7 +127,16 @@ pub(in crate::lower::fit) fn nearest_grid_point(grid: &Grid, p: Point2) -> Resul
     round::nearest(grid, p)
 }
 
-/// The grid point in both bands that is nearest to the middle of both.
+/// Grid steps about its place in which a vertex is looked for.
+const VERTEX_STEPS: i64 = 3;
+/// Most grid steps by which a vertex may slide along the path, so that the path neither runs past its end nor stops
+/// short of it by more than rounding does.
+const VERTEX_REACH: f64 = 1.2;
+/// What a slide of a vertex along the path counts beside a miss across it: little, for arcs of little sweep agree
+/// in their radii only when both ends lie on the circle.
+const VERTEX_SLIDE: f64 = 0.05;
+
+/// The grid point that misses the middle of both bands least, near where they meet.
 fn vertex(
     tube: &Tube<'_>,
     grid: &Grid,
@@ -144,12 +153,14 @@ fn vertex(
     let ideal = corner + sum * scale;
     let centre = round::nearest(grid, ideal)?;
     let mut best = (f64::INFINITY, centre);
-    for dx in -3..=3 {
-        for dy in -3..=3 {
+    for dx in -VERTEX_STEPS..=VERTEX_STEPS {
+        for dy in -VERTEX_STEPS..=VERTEX_STEPS {
             let q = [centre[0] + dx, centre[1] + dy];
             let p = round::point(grid, q);
             let miss = normals.iter().fold(0.0_f64, |m, n| m.max(((p - corner).dot(n) - middle).abs()));
-            let cost = miss + 0.5 * (p - ideal).norm();
+            let slide = (p - ideal).norm();
+            let beyond = (slide - VERTEX_REACH * grid.step).max(0.0);
+            let cost = miss + VERTEX_SLIDE * slide + beyond;
             if cost < best.0 {
                 best = (cost, q);
             }
