@@ -281,11 +281,16 @@ fn in_part(case: &Case<'_>, p: Position) -> Point3 {
 ///
 /// `before` is where the tool was before the first of them, in a part of a program.
 pub(super) fn cl_points(case: &Case<'_>, before: Option<Point3>) -> Vec<Finding> {
-    let most = 0.5 * case.target.capabilities.grid.linear_step() * 3.0_f64.sqrt() + ACCURACY;
+    let step = case.target.capabilities.grid.linear_step();
     let mut at = 0;
     let mut depth = 0.0;
     let mut findings = Vec::new();
-    for record in &case.cl.records {
+    for (index, record) in case.cl.records.iter().enumerate() {
+        // The start of a contour may slide along it by a step or two.
+        let starts = case.cl.records[index..].get(1).is_some_and(
+            |next| matches!(&next.kind, RecordKind::Contour(c) if c.entry == crate::cl::Lead::None),
+        );
+        let most = if starts { 2.0 * step } else { 0.5 * step * 3.0_f64.sqrt() } + ACCURACY;
         let point = match record.kind {
             RecordKind::From(p) | RecordKind::Rapid(p) | RecordKind::Linear(p) => p,
             RecordKind::Circle(ref circle) => circle.to,
