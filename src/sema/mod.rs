@@ -42,7 +42,6 @@ mod report;
 mod run;
 mod scope;
 mod slots;
-mod surface;
 mod table;
 mod tokens;
 mod transform;

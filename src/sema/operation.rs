@@ -1,4 +1,4 @@
-//! Operations: what they have in common, `PROFIL` and `ROUGH` of cams.
+//! `PROFIL` and `ROUGH`.
 
 use crate::arena::Handle;
 use crate::diag::codes::semantics as codes;
@@ -42,7 +42,6 @@ impl Analyser<'_> {
         if let Some(m) = self.arguments(statement, command) {
             match statement.word {
                 "ROUGH" => self.rough(&m, name),
-                "SURFAC" => self.surfac(&m, name),
                 _ => self.profil(&m, name),
             }
         }
@@ -54,7 +53,7 @@ impl Analyser<'_> {
     }
 
     /// The loaded cutter, after a check of all that a cut needs.
-    pub(super) fn ready(&mut self, what: &str, m: &Matched) -> Option<Handle<Tool>> {
+    fn ready(&mut self, what: &str, m: &Matched) -> Option<Handle<Tool>> {
         self.needs_tool(what, m.word);
         let tool = match self.state.tool {
             Setting::Set(tool, _) => Some(tool),
@@ -144,7 +143,7 @@ impl Analyser<'_> {
     }
 
     /// After an operation the cutter is somewhere above the part.
-    pub(super) fn moved(&mut self) {
+    fn moved(&mut self) {
         self.state.position = None;
         self.state.at_from = false;
         self.state.rapid = false;

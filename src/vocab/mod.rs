@@ -23,7 +23,6 @@ mod process;
 mod program;
 pub mod reference;
 mod space;
-mod surfaces;
 
 pub use functions::{FUNCTIONS, Function, FunctionId};
 pub use program::STRUCTURE_WORDS;
@@ -127,8 +126,6 @@ pub enum EntityKind {
     Cutter,
     /// `STOCK`
     Stock,
-    /// `NET`
-    Net,
     /// A labelled operation
     Operation,
 }
@@ -151,7 +148,6 @@ impl EntityKind {
             EntityKind::Cam => "a cam",
             EntityKind::Cutter => "a cutter",
             EntityKind::Stock => "a stock",
-            EntityKind::Net => "a net",
             EntityKind::Operation => "an operation",
         }
     }
@@ -172,7 +168,6 @@ impl EntityKind {
             EntityKind::Cam => "CAM",
             EntityKind::Cutter => "CUTTER",
             EntityKind::Stock => "STOCK",
-            EntityKind::Net => "NET",
             EntityKind::Operation => "PROFIL",
         }
     }
@@ -371,7 +366,7 @@ const NOT_NEGATIVE: Kind = Kind::Number(Dim::LENGTH, Range::NotNegative);
 const ANGLE: Kind = Kind::Number(Dim::ANGLE, Range::Any);
 
 /// The table, by group.
-pub const TABLE: [&[Statement]; 11] = [
+pub const TABLE: [&[Statement]; 9] = [
     program::ROWS,
     geometry::ROWS,
     curves::ROWS,
@@ -380,8 +375,6 @@ pub const TABLE: [&[Statement]; 11] = [
     process::ROWS,
     operations::MOTION,
     operations::ROWS,
-    surfaces::NETS,
-    surfaces::OPERATIONS,
     later::ROWS,
 ];
 

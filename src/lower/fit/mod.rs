@@ -22,7 +22,6 @@ mod guard;
 mod lines;
 pub mod measure;
 pub mod nurbs;
-pub mod ribbon;
 #[cfg(test)]
 mod samples;
 mod search;
