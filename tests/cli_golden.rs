@@ -8,7 +8,7 @@ use serde_json::Value;
 
 const PART: &str = "\
 PARTNO part
-PARAM/ DEEP = 2mm, MIN, 1mm, MAX, 9mm, 'depth'
+PARAM/ DEPS = 2mm, MIN, 1mm, MAX, 9mm, 'depth'
 MACHIN/ LINUXCNC
 MACHIN/ FANUC
 T1 = CUTTER/ FLAT, 10, NUMBER, 1
@@ -17,8 +17,8 @@ SPINDL/ 1000, CLW
 FEDRAT/ 200
 RAPID
 GOTO/ 0, 0, 5
-GOTO/ 0, 0, -DEEP
-GOTO/ 30, 0, -DEEP
+GOTO/ 0, 0, -DEPS
+GOTO/ 30, 0, -DEPS
 GOTO/ 30, 0, 5
 FINI
 ";
@@ -48,7 +48,7 @@ fn what_was_accepted_passes_and_a_change_is_shown_as_text_and_as_motion() {
         (0, "ok        part.apt linuxcnc\nok        part.apt fanuc\n2 ok\n".to_owned())
     );
 
-    scratch.write("part.apt", PART.replace("GOTO/ 30, 0, -DEEP", "GOTO/ 30, 0.5, -DEEP"));
+    scratch.write("part.apt", PART.replace("GOTO/ 30, 0, -DEPS", "GOTO/ 30, 0.5, -DEPS"));
     let changed = scratch.run(&["test", "--filter", "linuxcnc"]);
     assert_eq!(code(&changed), 3);
     insta::assert_snapshot!(stdout(&changed));
@@ -73,7 +73,7 @@ fn variants_posts_and_messages_come_from_the_test_file() {
     scratch
         .write("parts/part.apt", PART)
         .write("posts/own.post.toml", "inherits = \"grbl\"\n[tool-change]\norder = [\"text\"]\n")
-        .write("parts/part.test.toml", "posts = [\"haas\"]\n[post-set]\n'numbers.plus' = 'true'\n[[variant]]\nname = \"deep\"\ndefine = { DEEP = \"3mm\" }\n[[variant]]\nname = \"own\"\nposts = [\"../posts/own.post.toml\"]\n[[variant]]\nname = \"tooDeep\"\ndefine = { DEEP = \"30mm\" }\ndiagnostics = [\"E0234\"]\n");
+        .write("parts/part.test.toml", "posts = [\"haas\"]\n[post-set]\n'numbers.plus' = 'true'\n[[variant]]\nname = \"deep\"\ndefine = { DEPS = \"3mm\" }\n[[variant]]\nname = \"own\"\nposts = [\"../posts/own.post.toml\"]\n[[variant]]\nname = \"tooDeep\"\ndefine = { DEPS = \"30mm\" }\ndiagnostics = [\"E0234\"]\n");
     let first = scratch.run(&["test", "--accept", "parts"]);
     let text = stdout(&first);
     assert_eq!(code(&first), 3, "{text}");
@@ -224,7 +224,7 @@ fn diff_compares_programs_as_motion() {
     };
     build("a.fanuc.nc", "fanuc", &[]);
     build("b.nc", "fanuc", &["--post-set", "modal.axes=false"]);
-    build("deep.nc", "fanuc", &["-D", "DEEP=2.5mm"]);
+    build("deep.nc", "fanuc", &["-D", "DEPS=2.5mm"]);
     let same = scratch.run(&["diff", "a.fanuc.nc", "b.nc"]);
     assert_eq!(code(&same), 0, "{}{}", stdout(&same), stderr(&same));
     assert!(stdout(&same).starts_with("same motion: "), "{}", stdout(&same));

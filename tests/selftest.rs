@@ -30,7 +30,9 @@ fn no_row_of_a_built_in_post_is_wrong() {
             assert!(!matrix.passed(), "{name}");
             continue;
         }
-        let followed = |r: &&Row| r.area != "cycles" && !NOT_FOLLOWED.contains(&r.title);
+        // CL text makes a rapid to another height in one move, for the post that reads it to take apart.
+        let whole = |r: &Row| name == "apt-cl" && r.title == "rapid that moves all axes";
+        let followed = |r: &&Row| !whole(r) && r.area != "cycles" && !NOT_FOLLOWED.contains(&r.title);
         let wrong = |r: &&Row| r.verdict == Verdict::Wrong && !r.remark.contains("starts with MSG");
         let found: Vec<&str> = matrix.rows.iter().filter(followed).filter(wrong).map(|r| r.title).collect();
         assert!(found.is_empty(), "{name}: {found:?}\n{}", print::text(&matrix));

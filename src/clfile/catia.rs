@@ -56,7 +56,7 @@ impl Reader<'_> {
         let start = self.state.at.ok_or("an arc from nowhere: no point stands before it")?;
         let direction = self.state.direction.ok_or("an arc without INDIRV: its sense is not known")?;
         let length = axis.norm();
-        if !(length > 0.0) {
+        if length.is_nan() || length <= 0.0 {
             return Err("the circle's axis has no length".to_owned());
         }
         let axis = axis / length;
@@ -79,7 +79,7 @@ impl Reader<'_> {
         let (p, q) = (flat([x, y, z]), flat([u, v, w]));
         let d = q - p;
         let length = d.norm();
-        if !(length > 0.0) {
+        if length.is_nan() || length <= 0.0 {
             return Err("the line on which the arc ends has no length".to_owned());
         }
         let d = d / length;

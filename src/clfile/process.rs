@@ -55,7 +55,7 @@ impl Reader<'_> {
         let scale = |unit: f64| if unit > 0.0 { unit } else { self.state.scale };
         let find =
             |table: &[(&str, f64)]| table.iter().find(|(w, _)| words.contains(w)).map(|(_, u)| scale(*u));
-        if !(value > 0.0) {
+        if value.is_nan() || value <= 0.0 {
             return None;
         }
         if let Some(unit) = find(PER_REVOLUTION) {

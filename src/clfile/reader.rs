@@ -251,11 +251,8 @@ impl<'t> Reader<'t> {
     fn raw(&mut self, word: &'static str, text: &str) {
         self.state.continues = false;
         match word {
-            "PARTNO" => {
-                if self.title.is_none() && !text.is_empty() {
-                    self.title = Some(text.to_owned());
-                }
-            }
+            "PARTNO" if self.title.is_none() && !text.is_empty() => self.title = Some(text.to_owned()),
+            "PARTNO" => {}
             "TOOL PATH" => self.tool_path(text),
             "INSERT" if !self.producer.inserts_are_comments() => {
                 self.settle();

@@ -21,11 +21,12 @@ fn nothing_is_dropped_in_silence() {
         ("NURBS/\nKNOT/ 0.5, 1.0\nCNTRL/ 1, 0, 0", "E1007"),
         ("CUTCOM/ LEFT, XYPLAN", "W1010"),
         ("CIRCLE/ 0, 0, 5, 0, 0, 1, 10\nGOTO/ 0, 10.05, 5", "W1011"),
-        ("LOADTL/ 2\nGOTO/ 0, 0, 50", "W1012"),
     ] {
         let (_, codes) = read(&framed(record));
         assert_eq!(codes, [code], "{record}");
     }
+    let (_, codes) = read("LOADTL/1\nSPINDL/1000,RPM,CLW\nFEDRAT/200,MMPM\nGOTO/0,0,50\nFINI\n");
+    assert_eq!(codes, ["W1012"]);
 }
 
 #[test]

@@ -71,6 +71,7 @@ pub fn find(start: &Path) -> Result<Found, Diagnostic> {
     }
     let is_program = |path: &Path| match only {
         Some(only) => path.file_name() == only.file_name(),
+        None if names::is_golden(&file_name(path)) => false,
         None => {
             extension(path).is_some_and(|e| e == PROGRAM) || clfile::recognise(&file_name(path), "").is_some()
         }

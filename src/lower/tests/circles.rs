@@ -57,7 +57,7 @@ fn circles_that_are_off_the_grid_keep_their_radii_in_printed_numbers() {
     for k in 1..40 {
         let angle = 0.157_3 * f64::from(k);
         let r = 7.123_456_7 + f64::from(k) * 3.3;
-        let at = |t: f64| [r * t.cos() + 0.1234, r * t.sin() - 5.4321, -1.0];
+        let at = |t: f64| [r * crate::math::cos(t) + 0.1234, r * crate::math::sin(t) - 5.4321, -1.0];
         let from = at(0.3);
         let draft = Draft::new().rapid(from[0], from[1], 5.0).linear(from[0], from[1], -1.0);
         let draft = draft.add(circle(at(0.3 + angle), [0.1234, -5.4321, -1.0], [0.0, 0.0, 1.0], 0));

@@ -61,7 +61,7 @@ impl Reader<'_> {
         while let Some(word) = words.next() {
             self.word(&mut cycle, word, &mut words, out);
         }
-        if !(cycle.depth > 0.0) {
+        if cycle.depth.is_nan() || cycle.depth <= 0.0 {
             return out.fault("CYCLE without FEDTO, the depth");
         }
         let pecks = matches!(kind, Kind::Deep | Kind::BreakChip);
@@ -133,11 +133,8 @@ impl Reader<'_> {
             out.event(EventKind::Dwell(cycle.dwell));
         }
         match cycle.kind {
-            Kind::Tap => {
-                self.direction = -self.direction;
-                self.vertical(r, false, out);
-            }
-            Kind::Ream => self.vertical(r, false, out),
+            // That the spindle turns back on the way out of a tapped hole is the control's affair, not CL data's.
+            Kind::Tap | Kind::Ream => self.vertical(r, false, out),
             Kind::Bore => self.direction = 0.0,
             Kind::Drill | Kind::Face | Kind::Deep | Kind::BreakChip => {}
         }

@@ -234,7 +234,7 @@ impl Reader<'_> {
             ));
             return None;
         }
-        if !(feed > 0.0) {
+        if feed.is_nan() || feed <= 0.0 {
             out.fault(format!("cycle {} without a feed", cycle.number));
             return None;
         }
@@ -242,7 +242,7 @@ impl Reader<'_> {
             out.fault(format!("a peck of Q202={}", peck / self.unit()));
             return None;
         }
-        for index in [212, 257, 379].into_iter().filter(|&i| raw(i) != 0.0) {
+        if let Some(index) = [212, 257, 379].into_iter().find(|&i| raw(i) != 0.0) {
             out.fault(format!("Q{index} of cycle {}, which this reader does not follow", cycle.number));
             return None;
         }

@@ -19,7 +19,7 @@ mod tests;
 pub(super) const NAME: &str = "heidenhain";
 
 /// Largest position, mm or inch, feed and speed of a word.
-const LARGEST: f64 = 99_999.9999;
+const LARGEST: f64 = 99_999.999_9;
 /// Longest block with its continuation lines, characters.
 const LONGEST: usize = 10_000;
 

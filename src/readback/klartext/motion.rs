@@ -83,7 +83,7 @@ impl Reader<'_> {
         }
         let to = self.target(asked, out);
         let named = |axis: usize| asked.axes[axis].is_some();
-        if !named(0) && !named(1) && !(self.state.known[0] && self.state.known[1]) {
+        if !(named(0) || named(1) || self.state.known[0] && self.state.known[1]) {
             out.fault("CC at a position that is not known");
         }
         let kept = self.state.pole.unwrap_or([to[0], to[1]]);

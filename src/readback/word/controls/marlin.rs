@@ -10,7 +10,7 @@ pub(super) const RULES: Rules = Rules {
     name: "marlin",
     frame: Frame::Free,
     parentheses: false,
-    comment_character: |c| c >= b' ' && c < 0x7f,
+    comment_character: |c| (b' '..0x7f).contains(&c),
     comment_complaint: "the host may stop at",
     percent_allowed: false,
     lower_case: false,
