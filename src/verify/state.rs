@@ -83,8 +83,19 @@ fn washing(coolant: (bool, bool)) -> &'static str {
     }
 }
 
+/// Whether the move is of a hole: they have checks of their own (a tap comes out turning back).
+fn in_hole(case: &Case<'_>, placed: &Placed<'_>) -> bool {
+    let record = placed.block.and_then(|b| case.target.blocks.get(b)).and_then(|b| b.record);
+    record
+        .and_then(|r| case.cl.records.get(r as usize))
+        .is_some_and(|r| matches!(r.kind, RecordKind::Hole(_)))
+}
+
 /// What was asked of the spindle.
 fn spindle(case: &Case<'_>, placed: &Placed<'_>) -> Option<Text> {
+    if in_hole(case, placed) {
+        return None;
+    }
     let wanted = asked(case, placed)?.spindle;
     let got = placed.cut.spindle;
     (got != 0.0 && (got - wanted).abs() > SPEED_TOLERANCE)
@@ -109,12 +120,7 @@ fn is_plain(case: &Case<'_>, placed: &Placed<'_>) -> bool {
 
 fn feed(case: &Case<'_>, placed: &Placed<'_>) -> Option<Text> {
     let got = placed.cut.feed.unwrap_or(0.0);
-    // Holes have checks of their own.
-    let hole = placed.block.and_then(|b| case.target.blocks.get(b)).and_then(|b| b.record);
-    let hole = hole
-        .and_then(|r| case.cl.records.get(r as usize))
-        .is_some_and(|r| matches!(r.kind, RecordKind::Hole(_)));
-    if hole || placed.cut.length() == 0.0 {
+    if in_hole(case, placed) || placed.cut.length() == 0.0 {
         return None;
     }
     let text = Text::default();

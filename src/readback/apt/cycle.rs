@@ -133,8 +133,11 @@ impl Reader<'_> {
             out.event(EventKind::Dwell(cycle.dwell));
         }
         match cycle.kind {
-            // That the spindle turns back on the way out of a tapped hole is the control's affair, not CL data's.
-            Kind::Tap | Kind::Ream => self.vertical(r, false, out),
+            Kind::Tap => {
+                self.direction = -self.direction;
+                self.vertical(r, false, out);
+            }
+            Kind::Ream => self.vertical(r, false, out),
             Kind::Bore => self.direction = 0.0,
             Kind::Drill | Kind::Face | Kind::Deep | Kind::BreakChip => {}
         }
