@@ -249,7 +249,6 @@ fn both_read_the_same_motion() {
             "G98 G82 X1 Y2 Z-3 R2 P0.5\nX4\nG89 X5 Z-2 R3 P0.25\nG85 X6 Z-3 R2\nG80\nG0 Z6\nG86 X5 Z-1 R2 P1\nG80",
         ),
         ("pecks", "G98 G83 X1 Y2 Z-5 R2 Q3\nX5\nG73 X6 Z-4 R2 Q2\nG80\nG0 Z5"),
-        ("rows", "G91 G81 X1 Y2 Z-5 R-3 L3\nG90 G80\nG0 Z5"),
         ("modal", "G1 X11\nG95 F0.1 X12\nG97 S500\nG94 F50 X13\nM5\nM3\nM7\nM8\nM9"),
     ] {
         agree(name, &program(body));

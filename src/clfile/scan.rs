@@ -1,6 +1,6 @@
 //! The bulk scanner: `GOTO` records with three or six numbers, byte by byte.
 //!
-//! It takes a line only if the grammar would read it the same way ([`super::tests`] compares them on random lines) and
+//! It takes a line only if the grammar would read it the same way (the tests compare them on random lines) and
 //! leaves everything else to the grammar.
 
 /// A `GOTO` record.

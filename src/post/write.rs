@@ -54,7 +54,7 @@ impl<'d> Parts<'d> {
     /// The text of the next part; lines are counted from the start of the program.
     ///
     /// # Errors
-    /// As [`write`].
+    /// As [`write()`].
     pub fn part(
         &mut self,
         program: &TargetProgram,

@@ -6,7 +6,7 @@
 //! checks (arc radius, illegal in mode, missing feed, unknown or repeated word, line too long …) and gives
 //! the [`Trace`]: what the machine does, in mm, radians and seconds.
 //!
-//! A control is a row of [`rules::Rules`] and its two code tables for the word-address family; another family is
+//! A control is a row of `word::rules::Rules` and its two code tables for the word-address family; another family is
 //! another interpreter beside this one, behind the same [`run`]. Blocks are executed one by one and handed to a
 //! [`Follow`]er as they come, so that the length of a program is no bound on memory.
 
