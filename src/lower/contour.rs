@@ -10,6 +10,7 @@ use super::place::at_origin;
 use crate::cl::{Cl, Contour, Lead, Record, RecordKind};
 use crate::diag::{Code, Diagnostic, Sink, codes};
 use crate::geom::Side;
+use crate::geom::curve::Shape;
 use crate::ir::{Band, Interpolation};
 use crate::target::{Capabilities, NurbsForm};
 
@@ -214,34 +215,66 @@ fn knots(capabilities: &Capabilities) -> fit::Knots {
 }
 
 /// The fewest blocks that the target can do; among equals the smaller deviation, then the simpler motion.
+///
+/// Arcs come first; what cannot have fewer blocks than the best so far is not fitted.
 fn fewest(
     tube: &Tube,
     contour: &Contour,
     capabilities: &Capabilities,
 ) -> Result<(Fit, Interpolation), FitError> {
-    let mut kinds = Vec::new();
-    if capabilities.arcs {
-        kinds.push(Interpolation::Circular);
-    } else {
-        kinds.push(Interpolation::Linear);
-    }
-    if polar_possible(contour, capabilities) {
-        kinds.push(Interpolation::RTheta);
-    }
     let mut best: Option<(Fit, Interpolation)> = None;
     let mut failure = None;
-    for kind in kinds {
-        match fit_as(tube, contour, kind, capabilities) {
-            Ok(found) => best = Some(best.filter(|b| !better(&found.0, &b.0)).unwrap_or(found)),
+    for kind in candidates(contour, capabilities) {
+        let most = best.as_ref().map(|b| path::blocks(&b.0));
+        match challenge(tube, contour, kind, capabilities, most) {
+            Ok(Some(found)) => best = Some(best.filter(|b| !better(&found.0, &b.0)).unwrap_or(found)),
+            Ok(None) => {}
             Err(error) => failure = failure.or(Some(error)),
         }
     }
     match (best, failure) {
         (Some(best), _) => Ok(best),
-        // Arcs can fail where lines do: lines are the last resort.
-        (None, Some(error)) if !capabilities.arcs => Err(error),
+        // Lines are the last resort; when they fail too, that is the reason.
         (None, _) => fit_as(tube, contour, Interpolation::Linear, capabilities),
     }
+}
+
+/// What AUTO may choose from. Dwells do not become chords where there are arcs, and only arcs keep them exactly.
+fn candidates(contour: &Contour, capabilities: &Capabilities) -> Vec<Interpolation> {
+    let spans = contour.curve.breaks().len().saturating_sub(1);
+    let round = (0..spans).any(|i| matches!(contour.curve.shape(i), Shape::Arc { .. }));
+    let exact = capabilities.arcs && contour.exact_dwells && round;
+    [
+        (Interpolation::Circular, capabilities.arcs),
+        (Interpolation::Linear, !(capabilities.arcs && round)),
+        (Interpolation::RTheta, !exact && polar_possible(contour, capabilities)),
+        (Interpolation::Nurbs, !exact && capabilities.nurbs.is_some()),
+    ]
+    .into_iter()
+    .filter_map(|(kind, possible)| possible.then_some(kind))
+    .collect()
+}
+
+/// A fit of this kind, unless it cannot have as few blocks as `most` (fewer, for a NURBS curve).
+fn challenge(
+    tube: &Tube,
+    contour: &Contour,
+    kind: Interpolation,
+    capabilities: &Capabilities,
+    most: Option<usize>,
+) -> Result<Option<(Fit, Interpolation)>, FitError> {
+    let grid = fit::Grid::from(&capabilities.grid);
+    let hopeless = match (kind, most) {
+        (_, None) => false,
+        (Interpolation::Linear, Some(most)) => !fit::bound::lines_may_be(tube, &grid, most)?,
+        (Interpolation::RTheta, Some(most)) => !fit::bound::spirals_may_be(tube, &grid, most)?,
+        (Interpolation::Nurbs, Some(most)) => {
+            let fit = fit::nurbs_of(tube, &grid, knots(capabilities), contour.start, most.saturating_sub(1))?;
+            return Ok(fit.map(|f| (f, kind)));
+        }
+        _ => false,
+    };
+    if hopeless { Ok(None) } else { fit_as(tube, contour, kind, capabilities).map(Some) }
 }
 
 fn better(a: &Fit, b: &Fit) -> bool {

@@ -40,6 +40,37 @@ pub fn spirals(tube: &Tube, grid: &Grid) -> Result<u32, FitError> {
     Ok(links(&stations, tube))
 }
 
+/// Whether a chain of at most `most` straight lines is not ruled out; much less work than [`lines`].
+///
+/// # Errors
+/// Those of [`Stations::new`].
+pub fn lines_may_be(tube: &Tube, grid: &Grid, most: usize) -> Result<bool, FitError> {
+    Ok(may_be(&Stations::new(tube, Plane::xy(grid), None)?, tube, most))
+}
+
+/// Whether a chain of at most `most` Archimedean spirals is not ruled out.
+///
+/// # Errors
+/// Those of [`Stations::new`].
+pub fn spirals_may_be(tube: &Tube, grid: &Grid, most: usize) -> Result<bool, FitError> {
+    Ok(may_be(&Stations::new(tube, Plane::polar(grid), None)?, tube, most))
+}
+
+/// A closed chain cut at any gate is an open one of at most one link more.
+fn may_be(stations: &Stations, tube: &Tube, most: usize) -> bool {
+    let gates = stations.gates(tube, 1.0, Guard::Outside);
+    if gates.len() < 2 {
+        return true;
+    }
+    let most = u32::try_from(most).unwrap_or(u32::MAX);
+    let mut stab = Stab::default();
+    if stations.closed {
+        let limit = most.saturating_add(1);
+        return count_to(&gates, &mut stab, (0, gates.len()), limit) <= limit;
+    }
+    open(stations, tube, &gates, &mut stab, most) <= most
+}
+
 /// The bound for stations at hand.
 #[must_use]
 pub fn links(stations: &Stations, tube: &Tube) -> u32 {
@@ -49,36 +80,47 @@ pub fn links(stations: &Stations, tube: &Tube) -> u32 {
         return 1;
     }
     if stations.closed {
-        return closed(&gates, &mut stab);
+        closed(&gates, &mut stab)
+    } else {
+        open(stations, tube, &gates, &mut stab, u32::MAX)
     }
-    match Ends::of(stations, tube, &gates) {
+}
+
+/// The bound of an open tube, given up when it is more than `limit`.
+fn open(stations: &Stations, tube: &Tube, gates: &Gates, stab: &mut Stab, limit: u32) -> u32 {
+    match Ends::of(stations, tube, gates) {
         Ok(ends) => {
-            let course = ends.course(&gates);
+            let course = ends.course(gates);
             let first = look(&course, ends.head.point(), ends.head.next);
-            1 + first.window(&course).map_or(0, |window| windows(&course, &mut stab, window, first.reach))
+            1 + first.window(&course).map_or(0, |window| windows(&course, stab, window, first.reach, limit))
         }
-        Err(_) => count(&gates, &mut stab, 0, gates.len() - 1),
+        Err(_) => count_to(gates, stab, (0, gates.len() - 1), limit),
     }
 }
 
 /// Links of the shortest chain from gate `from` to gate `to`.
 fn count(gates: &Gates, stab: &mut Stab, from: usize, to: usize) -> u32 {
+    count_to(gates, stab, (from, to), u32::MAX)
+}
+
+/// The same, given up when there are more than `limit`.
+fn count_to(gates: &Gates, stab: &mut Stab, (from, to): (usize, usize), limit: u32) -> u32 {
     if to <= from {
         return 1;
     }
     let course = Course { gates, end: to, target: None };
-    windows(&course, stab, gate_window(gates, from), from as f64)
+    windows(&course, stab, gate_window(gates, from), from as f64, limit)
 }
 
-/// Links from a window to the end of the course.
-fn windows(course: &Course, stab: &mut Stab, mut window: Window, mut reach: f64) -> u32 {
+/// Links from a window to the end of the course, given up when there are more than `limit`.
+fn windows(course: &Course, stab: &mut Stab, mut window: Window, mut reach: f64, limit: u32) -> u32 {
     let mut links = 0;
     loop {
         links += 1;
         let view = stab.view(course, &window);
         let stuck = view.reach <= reach && links > 1;
         match view.window(course) {
-            Some(next) if view.exit != Exit::End && !stuck => window = next,
+            Some(next) if view.exit != Exit::End && !stuck && links <= limit => window = next,
             _ => return links,
         }
         reach = view.reach;

@@ -33,7 +33,7 @@ mod window;
 
 pub use arcs::arcs;
 pub use lines::lines;
-pub use nurbs::{Knots, nurbs};
+pub use nurbs::{Knots, nurbs, nurbs_of};
 pub use spirals::spirals;
 
 use crate::geom::Point2;

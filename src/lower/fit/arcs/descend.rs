@@ -3,13 +3,15 @@
 use super::chain::{Chain, Goal, Hold, Joint, Member, measure};
 use super::optimise::{Stop, improve};
 use super::search::{
-    SEARCH_ITERATIONS, WINDOW as OUT, Wish, density, measures, respread, rotate, settle, slack, with_ends,
+    SEARCH_ITERATIONS, WINDOW as OUT, Wish, measures, respread, rotate, settle, slack, with_ends,
 };
 use super::start::{least, spread};
 use super::stretch::Stretch;
 
-/// Shifts of the joints that are tried over the whole stretch, in arcs.
-const PHASES: [f64; 3] = [0.5, 0.0, 0.25];
+/// Shifts of the joints that are tried over the whole stretch, in arcs; the first finds most of what the others find.
+const PHASES: [f64; 4] = [0.5, 0.25, 0.0, 0.75];
+/// Windows per arc in which the density of joints is smoothed for these starts.
+const WINDOWS: usize = 8;
 /// Places where an arc is taken out of a whole chain.
 const PLACES: usize = 3;
 /// Chains up to this length are searched as a whole.
@@ -94,8 +96,8 @@ fn fewer(
 
 /// A chain of `count` arcs from one of several starts, or the least deviation from the middle of the band found.
 fn anew(stretch: &Stretch<'_>, wish: &Wish, limit: f64, count: usize) -> Result<(Chain, f64), f64> {
-    let density = density(stretch, count);
     let mut least = f64::INFINITY;
+    let density = stretch.density(WINDOWS * count);
     for phase in PHASES {
         let start = with_ends(spread(stretch, &density, count, phase, wish.goal.band.middle), wish);
         let (next, found) = settle(start, stretch, &wish.goal, limit);

@@ -33,8 +33,10 @@ use crate::geom::curve::Shape;
 use crate::geom::{Point2, left};
 use crate::math;
 
-/// Flatter arcs than this become lines, mm.
+/// Flatter arcs than this become lines, mm …
 const LARGEST_RADIUS: f64 = 1e5;
+/// … unless the stretch is so long that arcs of this many times its length matter.
+const FLATTEST: f64 = 4.0;
 /// Tangent error at a joint before rounding that weighs as much as half the band, radians.
 const INNER_TANGENT: f64 = 2e-6;
 /// Shares of the band that are tried before rounding.
@@ -177,7 +179,8 @@ fn fit_stretch(
     exact: bool,
     start: Option<f64>,
 ) -> Result<Rounded, FitError> {
-    let limits = Limits { left: tube.left, right: tube.right, radius: LARGEST_RADIUS };
+    let radius = LARGEST_RADIUS.max(FLATTEST * stretch.length());
+    let limits = Limits { left: tube.left, right: tube.right, radius };
     let (middle, half) = (0.5 * (tube.left - tube.right), 0.5 * (tube.left + tube.right));
     let mut last: Option<Rounded> = None;
     for share in SHARES {
@@ -188,7 +191,7 @@ fn fit_stretch(
                 end_joint(stretch, round::point(grid, b), stretch.length()),
             ]
         });
-        let wish = Wish { goal, ends: joints, exact, radius: LARGEST_RADIUS };
+        let wish = Wish { goal, ends: joints, exact, radius };
         let Some((chain, _)) = search::fewest(stretch, &wish) else { continue };
         let chain = from_start(chain, stretch, start);
         let rounded = round::round(&chain, stretch, grid, &limits)?;

@@ -18,12 +18,12 @@ pub(super) struct Stop {
     pub smooth: bool,
 }
 
-/// A linear problem whose optimum is beyond this multiple of the target gives no hope to reach it …
-const HOPE: f64 = 1.04;
-/// … when it happens this many times in a row.
-const PATIENCE: usize = 4;
+/// A linear problem whose optimum is beyond one of these multiples of the target gives as little hope to reach it …
+const HOPE: [f64; 3] = [1.04, 1.3, 2.5];
+/// … as this many of them in a row.
+const PATIENCE: usize = 6;
 /// Accuracy of each linear problem, relative.
-const LINEAR: f64 = 1e-3;
+const LINEAR: f64 = 3e-3;
 /// Largest move of a joint along the curve in one iteration, as a share of the shorter arc beside it.
 const SLIDE: f64 = 0.35;
 /// Damping of a restoration, relative to the largest squared coefficient.
@@ -72,7 +72,8 @@ pub(super) fn improve(mut chain: Chain, stretch: &Stretch<'_>, goal: &Goal, stop
             r if r < 0.2 => trust *= 0.35,
             _ => {}
         }
-        hopeless = if solution.t > HOPE * stop.target && worst > stop.target { hopeless + 1 } else { 0 };
+        let doubts = HOPE.iter().filter(|h| solution.t > **h * stop.target && worst > stop.target).count();
+        hopeless = if doubts > 0 { hopeless + doubts } else { 0 };
         let given_up = stop.target > 0.0 && hopeless >= PATIENCE;
         if expected < stop.gain * worst || stalls > 1 || given_up {
             break;

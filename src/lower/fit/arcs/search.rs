@@ -1,5 +1,7 @@
 //! How many arcs: insert where the band is missed, take away where there is slack, keep the fewest.
 
+use std::rc::Rc;
+
 use super::chain::{Chain, Drawn, Goal, Hold, Joint, Member, arc_measure};
 use super::descend::descend;
 use super::exact::{self, Keep};
@@ -13,6 +15,8 @@ const SHARE: f64 = 0.97;
 pub(super) const SEARCH_ITERATIONS: usize = 24;
 /// Iterations of the last polish.
 const POLISH_ITERATIONS: usize = 16;
+/// Windows per arc in which the density of joints is smoothed.
+const WINDOWS: usize = 4;
 /// Arcs in which one is taken away.
 pub(super) const WINDOW: usize = 4;
 /// Exchanges of arcs between places for one number of arcs.
@@ -101,8 +105,8 @@ fn cube_unit(goal: &Goal) -> f64 {
     crate::math::cbrt(72.0 * 1.732_050_8 * goal.band.half)
 }
 
-pub(super) fn density(stretch: &Stretch<'_>, n: usize) -> Density {
-    Density::new(stretch, stretch.length() / (4.0 * n as f64))
+fn density(stretch: &Stretch<'_>, n: usize) -> Rc<Density> {
+    stretch.density(WINDOWS * n)
 }
 
 /// Asymptotic count: ∫|k'|^(1/3) ds / (72√3 δ)^(1/3).

@@ -1,5 +1,9 @@
 //! A tangent-continuous stretch of the curve, sampled once for all deviations that fitting asks for.
 
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use super::start::Density;
 use crate::geom::curve::{Frenet, PlanarCurve};
 use crate::geom::{Point2, Vec2, cross, left};
 use crate::lower::fit::FitError;
@@ -11,6 +15,8 @@ pub(in crate::lower::fit) const CORNER: f64 = 0.01 * math::DEG;
 const SAMPLE_TURN: f64 = 0.16;
 /// Samples per optimal arc, about: bounds |Δk| Δs² by 72√3 δ / SAMPLES³.
 const SAMPLES: f64 = 22.0;
+/// Smoothing windows of densities in one octave.
+const WINDOWS_PER_OCTAVE: f64 = 4.0;
 /// Deepest bisection of a smooth span while sampling.
 const SAMPLE_DEPTH: u32 = 24;
 
@@ -53,9 +59,24 @@ pub(in crate::lower::fit) struct Stretch<'a> {
     pub spans: Vec<Span>,
     /// Whether the stretch is the whole of a closed curve without corners.
     pub closed: bool,
+    /// Densities of joints that have been asked for.
+    densities: RefCell<Vec<(u32, Rc<Density>)>>,
 }
 
 impl<'a> Stretch<'a> {
+    /// Density of joints, smoothed to either side over about a share 1 / `windows` of the length.
+    pub fn density(&self, windows: usize) -> Rc<Density> {
+        // A few windows an octave serve all counts.
+        let key = (WINDOWS_PER_OCTAVE * math::ln(windows.max(1) as f64) / core::f64::consts::LN_2).round();
+        let known = self.densities.borrow().iter().find(|(k, _)| *k == key as u32).map(|(_, d)| Rc::clone(d));
+        known.unwrap_or_else(|| {
+            let window = self.length() / math::pow(2.0, key / WINDOWS_PER_OCTAVE);
+            let density = Rc::new(Density::new(self, window));
+            self.densities.borrow_mut().push((key as u32, Rc::clone(&density)));
+            density
+        })
+    }
+
     /// Length, mm.
     pub fn length(&self) -> f64 {
         self.samples.last().map_or(0.0, |q| q.s)
@@ -192,7 +213,7 @@ fn sample_stretch(
         }
         spans.push(Span { index, samples: (start, samples.len() - 1) });
     }
-    Ok(Stretch { curve, samples, spans, closed })
+    Ok(Stretch { curve, samples, spans, closed, densities: RefCell::default() })
 }
 
 /// Adaptive sampling of one smooth span.

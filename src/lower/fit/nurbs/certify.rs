@@ -86,7 +86,9 @@ fn search(
 ) {
     found.0 = found.0.min(a.e).min(b.e);
     found.1 = found.1.max(a.e).max(b.e);
-    if !(a.forward && b.forward && b.s > a.s) {
+    // The last vertex is on the grid: it may lie beyond the end of an open curve, where the foot stands still.
+    let at_end = !stretch.closed && a.s <= b.s && (b.s <= 0.0 || a.s >= stretch.length());
+    if !(a.forward && b.forward && (b.s > a.s || at_end)) {
         *found = (f64::NEG_INFINITY, f64::INFINITY);
         return;
     }

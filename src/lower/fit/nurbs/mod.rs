@@ -50,6 +50,8 @@ const REFUSALS: u32 = 6;
 const GROWTH: usize = 2;
 /// … and these are no use.
 const SPARE: usize = 24;
+/// A first guess that exceeds the number allowed by this factor is no use either.
+const HOPELESS: f64 = 1.5;
 /// Widest band that an error asks for, mm.
 const MOST_NEEDED: f64 = 1e6;
 /// Most control points of one curve.
@@ -63,10 +65,35 @@ const MOST_POINTS: usize = 100_000;
 /// [`FitError::BandTooNarrow`] when no spline on the grid keeps the band, [`FitError::BadCurve`] for cusps.
 pub fn nurbs(tube: &Tube<'_>, grid: &Grid, knots: Knots, start: Option<f64>) -> Result<Fit, FitError> {
     let guarded = guarded(tube, grid)?;
-    splines(&guarded.tube, grid, knots, start).map(|fit| guarded.answer(fit))
+    splines(&guarded.tube, grid, knots, start, usize::MAX).map(|fit| guarded.answer(fit))
 }
 
-fn splines(tube: &Tube<'_>, grid: &Grid, knots: Knots, start: Option<f64>) -> Result<Fit, FitError> {
+/// The same with at most `most` control points in all; `None` when that many were not enough.
+///
+/// # Errors
+/// Those of [`nurbs`] that do not depend on the number of points.
+pub fn nurbs_of(
+    tube: &Tube<'_>,
+    grid: &Grid,
+    knots: Knots,
+    start: Option<f64>,
+    most: usize,
+) -> Result<Option<Fit>, FitError> {
+    let guarded = guarded(tube, grid)?;
+    match splines(&guarded.tube, grid, knots, start, most) {
+        Ok(fit) => Ok(Some(guarded.answer(fit))),
+        Err(FitError::BandTooNarrow { .. }) => Ok(None),
+        Err(error) => Err(error),
+    }
+}
+
+fn splines(
+    tube: &Tube<'_>,
+    grid: &Grid,
+    knots: Knots,
+    start: Option<f64>,
+    most: usize,
+) -> Result<Fit, FitError> {
     let half = 0.5 * (tube.left + tube.right);
     let origin = tube.curve.at(tube.curve.domain().0).p;
     if half.is_nan() || half < 0.25 * grid.step {
@@ -75,7 +102,10 @@ fn splines(tube: &Tube<'_>, grid: &Grid, knots: Knots, start: Option<f64>) -> Re
     let list = stretches(tube.curve, half)?;
     let vertices = super::arcs::vertices(tube, grid, &list)?;
     let mut fit = Fit { start: [0, 0], primitives: Vec::new(), lower_bound: None, deviation: (0.0, 0.0) };
+    let mut left = most;
     for (i, stretch) in list.iter().enumerate() {
+        // Every stretch that follows takes as many points as the order at least.
+        let points = left.saturating_sub(ORDER * (list.len() - 1 - i));
         let from = if stretch.closed { station_of(stretch, start) } else { 0.0 };
         let ends = if stretch.closed {
             let q = super::arcs::vertex_at(tube, grid, stretch, from)?;
@@ -83,7 +113,9 @@ fn splines(tube: &Tube<'_>, grid: &Grid, knots: Knots, start: Option<f64>) -> Re
         } else {
             [vertices[i], vertices[(i + 1) % vertices.len()]]
         };
-        let (primitive, deviation) = Fitter { tube, grid, stretch, from, ends, knots }.fit()?;
+        let fitter = Fitter { tube, grid, stretch, from, ends, knots, most: points };
+        let (points, primitive, deviation) = fitter.fit()?;
+        left -= points;
         if i == 0 {
             fit.start = ends[0];
         }
@@ -112,6 +144,8 @@ struct Fitter<'a> {
     /// First and last control point.
     ends: [[i64; 2]; 2],
     knots: Knots,
+    /// Most control points.
+    most: usize,
 }
 
 /// Cumulative share of knots as a function of the station from the start of the spline, piecewise linear.
@@ -165,12 +199,14 @@ impl Fitter<'_> {
         0.5 * (self.tube.left + self.tube.right)
     }
 
-    fn fit(&self) -> Result<(Primitive, (f64, f64)), FitError> {
+    /// Number of control points, the curve and its deviation.
+    fn fit(&self) -> Result<(usize, Primitive, (f64, f64)), FitError> {
         let shares = self.first_shares();
         // What rounding of the control points may take: half a step in each coordinate.
         let limit = (self.half() - 0.71 * self.grid.step).max(0.4 * self.half());
-        let mut n = self.count(&shares, limit);
-        let most = (GROWTH * n + SPARE).min(MOST_POINTS);
+        let guess = self.count(&shares, limit);
+        let most = (GROWTH * guess + SPARE).min(MOST_POINTS).min(self.most.saturating_sub(ORDER - 1));
+        let mut n = if guess as f64 > HOPELESS * most as f64 { most + 1 } else { guess.min(most) };
         let mut best = None;
         let (mut needed, mut refused) = (f64::INFINITY, 0);
         while n <= most && refused < REFUSALS {
@@ -196,6 +232,7 @@ impl Fitter<'_> {
                 Err(_) => break,
             }
         }
+        let best = best.map(|(primitive, deviation)| (n + ORDER - 1, primitive, deviation));
         best.ok_or(FitError::BandTooNarrow {
             needed: (2.0 * needed).clamp(2.0 * self.half() + self.grid.step, MOST_NEEDED),
             have: 2.0 * self.half(),

@@ -143,3 +143,29 @@ fn papers_cam_needs_few_arcs() {
         }
     }
 }
+
+/// Jumps in the third derivative make local optima: these are the best counts known.
+#[test]
+fn hard_cams_reach_the_best_known_counts() {
+    let best = [("paper MODTRAP", 14), ("paper ASYTRAP", 13), ("arm", 14), ("flat", 12), ("paper CA", 12)];
+    let cams = survey::cams();
+    for (name, most) in best {
+        let (_, curve) = cams.iter().find(|(n, _)| n == name).unwrap();
+        let tube = Tube { curve: curve.as_ref(), left: 0.01, right: 0.01 };
+        let fit = arcs(&tube, &grid(1e-3), false, None).unwrap();
+        survey::check(name, &tube, &grid(1e-3), &fit);
+        assert!(fit.primitives.len() <= most, "{name}: {}", fit.primitives.len());
+    }
+}
+
+/// Arcs of long flat curves are flatter than the largest radius of small ones.
+#[test]
+fn curves_of_a_hundred_metres_are_fitted() {
+    let curve = Pitch::new(1.7e5, 5e4, (30.0, 150.0), (210.0, 330.0));
+    for band in [0.5, 10.0] {
+        let tube = Tube { curve: &curve, left: band, right: band };
+        let fit = arcs(&tube, &grid(1e-3), false, None).unwrap();
+        survey::check("long", &tube, &grid(1e-3), &fit);
+        assert!(fit.lower_bound.is_some_and(|b| fit.primitives.len() <= 2 * b as usize), "{fit:?}");
+    }
+}
