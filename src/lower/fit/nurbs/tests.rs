@@ -28,23 +28,6 @@ fn probe() {
     }
 }
 
-/// An end of an open curve lies between grid points, so the last vertex may lie beyond it.
-#[test]
-fn open_curves_are_fitted() {
-    use crate::geom::Vec2;
-    use crate::lower::fit::samples::Fourier;
-    for (size, band) in [(30.0, 0.01), (30.0, 0.5), (1000.0, 0.01), (1000.0, 0.5)] {
-        let terms = vec![(size, 0.0), (0.0, 0.0), (0.1 * size, 0.05 * size), (0.0, 0.03 * size)];
-        let curve = Fourier { centre: Vec2::new(0.1, 0.0) * size, terms, breaks: [0.2, 2.9] };
-        let tube = Tube { curve: &curve, left: band, right: band };
-        let grid = Grid { step: 0.001, centre_step: 0.001, angle_step: 0.001 };
-        for knots in [Knots::Uniform, Knots::Printed { decimals: 4 }] {
-            let fit = nurbs(&tube, &grid, knots, None).unwrap();
-            assert!(fit.deviation.0.max(fit.deviation.1) <= band, "{size} {band} {knots:?}: {fit:?}");
-        }
-    }
-}
-
 #[test]
 fn a_limit_of_points_is_kept_or_answered_with_nothing() {
     let curve = paper();
