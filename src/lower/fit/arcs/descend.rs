@@ -21,7 +21,7 @@ const DEEP: usize = 4;
 /// Chains up to this length are tried to the depth; longer ones as long as there is hope:
 const SMALL: usize = 10;
 /// a count may be better by this factor than the one above it and the third power say.
-const LUCK: f64 = 0.75;
+const LUCK: f64 = 0.85;
 /// Chains longer than this are searched by windows.
 const LONG: usize = 24;
 /// Arcs of a window.
