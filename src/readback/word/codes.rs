@@ -68,6 +68,8 @@ pub(in crate::readback) enum CycleKind {
 pub(in crate::readback) enum G {
     /// A motion.
     Motion(Mode),
+    /// G80 where another motion may stand beside it, and wins.
+    CycleEnd,
     /// G5.3: the curve that G5.2 opened is cut.
     NurbsEnd,
     /// G4.
@@ -133,6 +135,8 @@ pub(in crate::readback) enum Group {
     Motion,
     /// Plane.
     Plane,
+    /// G80, where it is apart from the motions.
+    CycleEnd,
     /// G90 G91.
     Distance,
     /// G90.1 G91.1.
@@ -163,6 +167,7 @@ impl Group {
         match self {
             Group::Once => "the one-shot codes",
             Group::Motion => "the motion codes",
+            Group::CycleEnd => "the end of cycles",
             Group::Plane => "the planes",
             Group::Distance => "G90 and G91",
             Group::ArcDistance => "G90.1 and G91.1",
@@ -184,6 +189,7 @@ impl G {
     pub(in crate::readback) fn group(self) -> Group {
         match self {
             G::Motion(_) | G::NurbsEnd => Group::Motion,
+            G::CycleEnd => Group::CycleEnd,
             G::Dwell | G::MachineCoordinates | G::Reference | G::ReturnHeight => Group::Once,
             G::Plane(_) => Group::Plane,
             G::Units { .. } => Group::Units,

@@ -24,8 +24,9 @@ pub(in crate::readback) struct Sticky {
     /// Height of G71, mm (Okuma).
     pub height: Option<f64>,
     initial: f64,
-    r: Option<f64>,
-    z: Option<f64>,
+    /// R and Z as they were said, and whether under G91.
+    r: Option<(f64, bool)>,
+    z: Option<(f64, bool)>,
     q: Option<f64>,
     p: Option<f64>,
 }
@@ -147,18 +148,11 @@ impl Machine<'_> {
         let speed = self.state.speed;
         let p = block.get(b'P').and_then(|p| cycles.dwell.seconds(p, block.point(b'P'), speed));
         let now = &mut self.state.cycle;
-        now.r = r.map(|r| if incremental { now.initial + r } else { r }).or(now.r);
-        let Some(level) = now.r else {
-            out.fault("a drilling cycle without R");
-            return None;
-        };
-        now.z = z.map(|z| if incremental { level + z } else { z }).or(now.z);
+        now.r = r.map(|r| (r, incremental)).or(now.r);
+        now.z = z.map(|z| (z, incremental)).or(now.z);
         now.q = q.or(now.q);
         now.p = p.or(now.p);
-        let Some(bottom) = now.z else {
-            out.fault("a drilling cycle without Z");
-            return None;
-        };
+        let Some((level, bottom)) = self.levels(out) else { return None };
         if !self.state.known[2] {
             out.fault("a drilling cycle from a height that is not known");
             return None;
@@ -168,16 +162,36 @@ impl Machine<'_> {
             out.fault(format!("R{} is below the bottom Z{} of the hole", level / u, bottom / u));
             return None;
         }
-        let peck = self.peck(kind, out)?;
+        let peck = self.peck(kind, level - bottom, out)?;
         let dwell = self.state.cycle.p.filter(|_| cycles.with_dwell.contains(&kind)).unwrap_or(0.0);
         let back = self.height_after(level, cycles, out)?;
         let clearance = cycles.clearance;
         Some(Hole { kind, r: level, z: bottom, back, peck, from: level, clearance, dwell })
     }
 
+    /// R and the bottom. Words that stay count as the distance mode now in force takes them.
+    fn levels<S: Follow>(&mut self, out: &mut Out<'_, S>) -> Option<(f64, f64)> {
+        let incremental = self.state.incremental == Some(true);
+        let now = &self.state.cycle;
+        let Some((r, r_mode)) = now.r else {
+            out.fault("a drilling cycle without R");
+            return None;
+        };
+        let Some((z, z_mode)) = now.z else {
+            out.fault("a drilling cycle without Z");
+            return None;
+        };
+        let level = if incremental { now.initial + r } else { r };
+        let bottom = if incremental { level + z } else { z };
+        if r_mode != incremental || z_mode != incremental {
+            self.assume(9, out, "G90 or G91 changes between holes: whether R and Z are taken anew depends on the control");
+        }
+        Some((level, bottom))
+    }
+
     /// The peck of G73 and G83, which must be there and lead down; `None` when it isn't.
     #[allow(clippy::option_option)]
-    fn peck<S: Follow>(&self, kind: CycleKind, out: &mut Out<'_, S>) -> Option<Option<f64>> {
+    fn peck<S: Follow>(&self, kind: CycleKind, depth: f64, out: &mut Out<'_, S>) -> Option<Option<f64>> {
         if !matches!(kind, CycleKind::Deep | CycleKind::ChipBreak) {
             return Some(None);
         }
@@ -185,7 +199,6 @@ impl Machine<'_> {
             out.fault("a peck drilling cycle without Q");
             return None;
         };
-        let depth = self.state.cycle.r.unwrap_or_default() - self.state.cycle.z.unwrap_or_default();
         if q <= 0.0 || depth / q > MOST_PECKS {
             out.fault(format!("a peck of Q{} {}", q / self.unit(), self.unit_name()));
             return None;
@@ -216,6 +229,9 @@ impl Machine<'_> {
                         out,
                         "neither G98 nor G99 before the first cycle: it is left to the control's setting",
                     );
+                    if cycles.starts_to_r {
+                        return Some(r);
+                    }
                 }
                 if initial < r && !cycles.higher_return {
                     let u = self.unit();

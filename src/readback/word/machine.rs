@@ -1,7 +1,7 @@
 //! Executing blocks: modal state, checks that do not depend on the motion, order of execution.
 
 use super::block::{Block, bit};
-use super::codes::{G, Group, M};
+use super::codes::{G, Group, M, Mode};
 use super::rules::{FeedReset, Rules, Unpointed};
 use super::state::{Plan, State};
 use crate::readback::out::Out;
@@ -122,6 +122,13 @@ impl<'a> Machine<'a> {
                 self.rules.most_m
             ));
         }
+        if plan.cycle_end {
+            plan.motion = plan.motion.or(Some(Mode::None));
+            if let Some(Mode::Cycle(_)) = plan.motion {
+                out.fault("G80 and a drilling cycle in one block");
+                good = false;
+            }
+        }
         good.then_some(plan)
     }
 
@@ -139,6 +146,7 @@ impl<'a> Machine<'a> {
         plan.groups |= mask;
         match g {
             G::Motion(mode) => plan.motion = Some(mode),
+            G::CycleEnd => plan.cycle_end = true,
             G::NurbsEnd => plan.nurbs_end = true,
             G::Dwell | G::MachineCoordinates | G::Reference | G::ReturnHeight => plan.once = Some(g),
             G::Return { to_r } => plan.return_to_r = Some(to_r),

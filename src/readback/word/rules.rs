@@ -98,6 +98,8 @@ pub(in crate::readback) struct Cycles {
     pub return_height: bool,
     /// Letter of the repeat count.
     pub repeats: u8,
+    /// G99 is in force before G98 or G99 is said.
+    pub starts_to_r: bool,
     /// A cycle block must move an axis.
     pub needs_motion: bool,
     /// A hole below the initial height is reached at `R` or the initial height, whichever is higher, under G98.

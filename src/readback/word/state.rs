@@ -10,6 +10,7 @@ pub(in crate::readback) struct Plan {
     pub groups: u32,
     pub m_groups: u8,
     pub motion: Option<Mode>,
+    pub cycle_end: bool,
     pub nurbs_end: bool,
     pub once: Option<G>,
     pub plane: Option<Plane>,

@@ -73,6 +73,7 @@ pub(in crate::readback::word) const CYCLES: Cycles = Cycles {
     return_height: false,
     repeats: b'K',
     needs_motion: false,
+    starts_to_r: false,
     higher_return: false,
     bore_dwell_feeds_back: false,
 };
@@ -120,7 +121,7 @@ pub(in crate::readback::word) fn g(tenths: u16) -> Option<G> {
         541 => G::WorkOffset(0),
         610 => G::ExactPath,
         640 => G::NoEffect(Group::Path),
-        800 => G::Motion(Mode::None),
+        800 => G::CycleEnd,
         900 => G::Distance { incremental: false },
         910 => G::Distance { incremental: true },
         930 => G::Feed(FeedMode::InverseTime),

@@ -1,6 +1,6 @@
 //! Haas mill, next generation control, from its published post and code lists.
 
-use super::super::codes::{G, Group, M, Mode};
+use super::super::codes::{G, Group, M};
 use super::super::rules::{Cycles, Dwell, Rules};
 use super::fanuc;
 
@@ -32,7 +32,6 @@ fn g(tenths: u16) -> Option<G> {
         1030 => G::NoEffect(Group::Once),
         1070 | 1120 | 1130 | 2340 | 2350 | 2540 | 2550 => G::Unfollowed(Group::Other),
         640 => G::NoEffect(Group::Path),
-        800 => G::Motion(Mode::None),
         _ => return fanuc::g(tenths),
     })
 }

@@ -87,6 +87,7 @@ pub(super) const CYCLES: Cycles = Cycles {
     return_height: false,
     repeats: b'L',
     needs_motion: true,
+    starts_to_r: true,
     higher_return: true,
     bore_dwell_feeds_back: true,
 };
@@ -113,7 +114,7 @@ pub(super) fn g(tenths: u16) -> Option<G> {
         591..=593 => G::WorkOffset(tenths - 584),
         610 | 611 => G::ExactPath,
         640 => G::Blend,
-        800 => G::Motion(Mode::None),
+        800 => G::CycleEnd,
         900 => G::Distance { incremental: false },
         910 => G::Distance { incremental: true },
         901 => G::ArcDistance { incremental: false },

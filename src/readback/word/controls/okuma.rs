@@ -1,6 +1,6 @@
 //! Okuma OSP machining centres, from a published post and programming manuals.
 
-use super::super::codes::{CycleKind, G, Group, M, Mode};
+use super::super::codes::{CycleKind, G, Group, M};
 use super::super::rules::{Cycles, Dwell, Frame, Rules, Unpointed};
 use super::fanuc;
 
@@ -49,7 +49,6 @@ fn g(tenths: u16) -> Option<G> {
         // Feed and modes that have no effect on the path in the form a safe start gives them.
         640 => G::NoEffect(Group::Path),
         930 | 541 | 62 | 280 | 430 | 490 | 540 | 550 | 570..=590 | 980 | 990 => return None,
-        800 => G::Motion(Mode::None),
         1310 => G::NoEffect(Group::Other),
         _ => return fanuc::g(tenths),
     })

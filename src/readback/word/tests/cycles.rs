@@ -36,6 +36,20 @@ fn a_motion_code_ends_a_cycle() {
 }
 
 #[test]
+fn the_end_of_cycles_may_share_a_block_with_a_motion() {
+    let body = "G98 G81 X1. Y2. Z-3. R2.\nG90 G80 G0 X9.";
+    for control in ["fanuc", "haas", "linuxcnc"] {
+        let (text, skip) = if control == "linuxcnc" { (linuxcnc(body), 2) } else { (fanuc(body), 1) };
+        assert_eq!(legs(control, &text, skip)[4], "R 9 2 5", "{control}");
+    }
+    // Grbl counts G80 among the motions.
+    let faults = trace("grbl", &grbl("G80 G0 X9")).faults;
+    assert!(faults.iter().any(|f| f.message.contains("two codes of one modal group")), "{faults:?}");
+    let faults = trace("fanuc", &fanuc("G80 G98 G81 X1. Y2. Z-3. R2.")).faults;
+    assert!(faults.iter().any(|f| f.message.contains("G80 and a drilling cycle")), "{faults:?}");
+}
+
+#[test]
 fn a_forgotten_cancel_drills_again() {
     let body = "G98 G81 X1. Y2. Z-3. R2.\nX9.\nG80";
     assert_eq!(legs("fanuc", &fanuc(body), 1)[4..], ["R 9 2 5", "R 9 2 2", "F 9 2 -3", "R 9 2 5"]);
