@@ -45,9 +45,14 @@ impl Comments {
             out.push(if self.upper_case { c.to_ascii_uppercase() } else { c });
         } else if c == ' ' || c == '\t' {
             out.push(' ');
+        } else if c.is_control() {
+            // A line end parts words, `\r\n` only once.
+            if !out.ends_with(' ') {
+                out.push(' ');
+            }
         } else if self.is_allowed(c) {
             out.push(c);
-        } else if !c.is_control() {
+        } else {
             out.push_str(&self.replace);
         }
     }

@@ -25,6 +25,10 @@ impl Finding {
     pub fn expressed(remark: impl Into<String>) -> Finding {
         Finding { verdict: Verdict::Expressed, ..Finding::right(remark) }
     }
+    /// What the control cannot do, with the reason.
+    pub fn not_applicable(remark: impl Into<String>) -> Finding {
+        Finding { verdict: Verdict::NotApplicable, ..Finding::right(remark) }
+    }
     pub fn wrong(remark: impl Into<String>) -> Finding {
         Finding { verdict: Verdict::Wrong, ..Finding::right(remark) }
     }

@@ -17,6 +17,8 @@ pub(super) struct Trial {
     watched: Vec<u32>,
     /// What the control does with the text.
     pub trace: Trace,
+    /// The text is CL data: a post that reads it makes the machine's moves.
+    pub cl_data: bool,
     /// Whether the program was proven.
     pub proven: bool,
     /// All messages.
@@ -29,7 +31,7 @@ impl Trial {
         let made = make(sheet, dialect, &mut sink);
         let Some((target, emitted, rotary)) = made else {
             let (text, watched, trace) = (Vec::new(), Vec::new(), Trace::default());
-            return Trial { text, watched, trace, proven: false, messages: sink.into_items() };
+            return Trial { text, watched, trace, cl_data: false, proven: false, messages: sink.into_items() };
         };
         let control = dialect.control_with(&target.capabilities.options);
         let setup = MachineSetup { rotary, ..MachineSetup::default() };
@@ -37,7 +39,8 @@ impl Trial {
         let text = emitted.text.lines().map(str::to_owned).collect();
         let watched = watched_lines(&target, &emitted, sheet.watched);
         let proven = verify::prove(&sheet.cl, &target, emitted, control, &mut sink).is_some();
-        Trial { text, watched, trace, proven, messages: sink.into_items() }
+        let cl_data = target.capabilities.whole_points;
+        Trial { text, watched, trace, cl_data, proven, messages: sink.into_items() }
     }
 
     /// The watched lines.

@@ -97,6 +97,9 @@ fn rapid(trial: &Trial) -> Finding {
     });
     match slanted {
         None => Finding::right("never Z together with another axis: rapids need not be straight"),
+        Some(_) if trial.cl_data => Finding::not_applicable(
+            "CL data say where a rapid goes; the post that reads them says by which axes first",
+        ),
         Some(m) => Finding::wrong(format!("moves from {} to {} at once", m.start(), m.end())),
     }
 }
