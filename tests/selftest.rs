@@ -41,8 +41,7 @@ const ROTARY: &str = "feed along the part with a rotary table";
 fn what_does_not_apply_is_said_with_its_reason() {
     for name in builtin_names() {
         let matrix = matrix(name, "");
-        let rows: Vec<&Row> =
-            matrix.rows.iter().filter(|r| r.verdict == Verdict::NotApplicable).collect();
+        let rows: Vec<&Row> = matrix.rows.iter().filter(|r| r.verdict == Verdict::NotApplicable).collect();
         let known: Vec<_> = NOT_APPLICABLE.iter().filter(|(post, ..)| *post == name).collect();
         assert_eq!(rows.len(), known.len(), "{name}: {rows:#?}");
         for (_, title, reason) in known {

@@ -31,7 +31,14 @@ impl Trial {
         let made = make(sheet, dialect, &mut sink);
         let Some((target, emitted, rotary)) = made else {
             let (text, watched, trace) = (Vec::new(), Vec::new(), Trace::default());
-            return Trial { text, watched, trace, cl_data: false, proven: false, messages: sink.into_items() };
+            return Trial {
+                text,
+                watched,
+                trace,
+                cl_data: false,
+                proven: false,
+                messages: sink.into_items(),
+            };
         };
         let control = dialect.control_with(&target.capabilities.options);
         let setup = MachineSetup { rotary, ..MachineSetup::default() };

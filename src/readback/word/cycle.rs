@@ -184,7 +184,11 @@ impl Machine<'_> {
         let level = if incremental { now.initial + r } else { r };
         let bottom = if incremental { level + z } else { z };
         if r_mode != incremental || z_mode != incremental {
-            self.assume(9, out, "G90 or G91 changes between holes: whether R and Z are taken anew depends on the control");
+            self.assume(
+                9,
+                out,
+                "G90 or G91 changes between holes: whether R and Z are taken anew depends on the control",
+            );
         }
         Some((level, bottom))
     }
