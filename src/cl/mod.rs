@@ -18,11 +18,10 @@ use crate::geom::{Point3, Side, Vec3};
 use crate::ir::{Band, Coolant, Feed, Interpolation, Origin, Spindle, Tool};
 use crate::units::LengthUnit;
 
-pub mod cycle;
 pub mod lead;
 pub mod print;
 
-pub use cycle::{Cycle, CycleKind, RetractTo};
+pub use crate::ir::cycle::{Cycle, CycleKind, RetractTo};
 
 /// Cutter location data of one program.
 #[derive(Debug, Clone, Default)]

@@ -16,6 +16,8 @@ use crate::geom::{Point3, Side};
 use crate::source::Span;
 use crate::units::{Angle, LengthUnit};
 
+pub mod cycle;
+mod place;
 pub mod print;
 
 /// Where a node came from: the statement, and the chain of macro calls that led to it.
@@ -136,6 +138,27 @@ pub struct Tool {
     pub origin: Handle<Origin>,
 }
 
+impl Tool {
+    /// A flat end mill of which no more is known than its diameter in mm and its number.
+    #[must_use]
+    pub fn flat(name: impl Into<String>, diameter: f64, number: Option<u32>, origin: Handle<Origin>) -> Tool {
+        Tool {
+            name: name.into(),
+            kind: CutterKind::Flat,
+            diameter,
+            corner: 0.0,
+            profile: [0.0; 5],
+            number,
+            flutes: None,
+            helix: None,
+            length: None,
+            stick_out: None,
+            material: None,
+            origin,
+        }
+    }
+}
+
 /// A blank.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stock {
@@ -230,7 +253,7 @@ pub enum StepKind {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DrillCycle {
     /// The cycle; its feed is that of `FEDRAT` where [`DrillCycle::own_feed`] is not set.
-    pub cycle: crate::cl::Cycle,
+    pub cycle: Cycle,
     /// The feed stands in the statement.
     pub own_feed: bool,
     /// Level above the hole's point after each hole, mm, where it is not the clearance level.
@@ -309,6 +332,8 @@ pub enum Entry {
 }
 
 pub use crate::geom::cam::Flank;
+pub use cycle::{Cycle, CycleKind, CycleName, RetractTo};
+pub use place::at_origin;
 
 /// What a profile operation follows.
 #[derive(Debug, Clone, PartialEq)]

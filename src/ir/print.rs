@@ -352,7 +352,7 @@ fn cycle(asked: &crate::ir::DrillCycle) -> String {
             text += &format!(" {name} {}", num(value));
         }
     }
-    if let crate::cl::CycleKind::Tap { pitch, left } = c.kind {
+    if let super::CycleKind::Tap { pitch, left } = c.kind {
         text += &format!(" pitch {}{}", num(pitch), if left { " left" } else { "" });
     }
     match (asked.own_feed, c.feed) {

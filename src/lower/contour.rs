@@ -6,11 +6,11 @@ use rayon::prelude::*;
 
 use super::fit::{self, Fit, FitError, Tube};
 use super::path;
-use super::place::at_origin;
 use crate::cl::{Cl, Contour, Lead, Record, RecordKind};
 use crate::diag::{Code, Diagnostic, Sink, codes};
 use crate::geom::Side;
 use crate::geom::curve::Shape;
+use crate::ir::at_origin;
 use crate::ir::{Band, Interpolation};
 use crate::target::{Capabilities, NurbsForm};
 

@@ -6,10 +6,10 @@
 
 use super::emit::Emitter;
 use super::feed;
-use crate::cl::cycle::CycleName;
 use crate::cl::{Cycle, CycleKind, RetractTo};
 use crate::diag::codes;
 use crate::geom::Point3;
+use crate::ir::CycleName;
 use crate::ir::{Feed, Spindle};
 use crate::target::{self, BlockKind, FeedWord, Position, axes};
 

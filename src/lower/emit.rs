@@ -5,15 +5,15 @@ use std::sync::Arc;
 use super::contour::Fitted;
 use super::cycle::Active;
 use super::feed::{self, FeedTrouble};
-use super::place::at_origin;
 use super::rotary;
 use super::tools::Tools;
 use crate::arena::Handle;
 use crate::cl::{Cl, Contour, Lead, Record, RecordKind};
 use crate::diag::{Code, Sink, codes};
 use crate::geom::Point3;
+use crate::ir::at_origin;
 use crate::ir::{Band, Coolant, Feed, Origin, Spindle};
-use crate::post::number;
+use crate::target::number;
 use crate::target::{
     Block, BlockKind, Capabilities, Cycle, FeedWord, Motion, Nurbs, Piece, PieceId, Position, TargetProgram,
     axes,

@@ -1,10 +1,10 @@
 //! Feeds in the words of the control.
 
-use super::place::at_origin;
 use crate::arena::{Arena, Handle};
 use crate::diag::{Diagnostic, codes};
+use crate::ir::at_origin;
 use crate::ir::{Feed, Origin};
-use crate::post::number;
+use crate::target::number;
 use crate::target::{Capabilities, FeedWord, RotaryFeed};
 
 /// Why a feed cannot be given.

@@ -21,7 +21,6 @@ mod feed;
 pub mod fit;
 mod lead;
 mod path;
-pub mod place;
 mod rotary;
 pub mod stream;
 #[cfg(test)]

@@ -108,20 +108,7 @@ impl Bench {
 }
 
 fn tool(diameter: f64, origin: Handle<Origin>) -> Tool {
-    Tool {
-        name: "T1".to_owned(),
-        kind: CutterKind::Flat,
-        diameter,
-        corner: 0.0,
-        profile: [0.0; 5],
-        number: Some(1),
-        flutes: None,
-        helix: None,
-        length: None,
-        stick_out: None,
-        material: None,
-        origin,
-    }
+    Tool::flat("T1", diameter, Some(1), origin)
 }
 
 fn contours(cl: &Cl) -> Vec<&Contour> {

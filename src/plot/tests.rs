@@ -5,8 +5,8 @@ use crate::geom::cam::{Cam, CamDefinition, Flank};
 use crate::geom::follower::{ArmSide, Follower};
 use crate::geom::motion::{Law, Motion, Segment, SegmentLaw};
 use crate::ir::{
-    Band, CamEntity, Cut, CutterKind, Entry, Feed, Interpolation, Machine, Origin, Profile, ProfileTarget,
-    Program, Rotary, RoughCam, Spindle, Step, StepKind, Stock, StockShape, Tool,
+    Band, CamEntity, Cut, Entry, Feed, Interpolation, Machine, Origin, Profile, ProfileTarget, Program,
+    Rotary, RoughCam, Spindle, Step, StepKind, Stock, StockShape, Tool,
 };
 use crate::source::{FileId, MemoryFiles, SourceMap, Span};
 use crate::units::{Angle, LengthUnit};
@@ -115,20 +115,7 @@ fn program(interpolation: Interpolation) -> Program {
 }
 
 fn tool(origin: Handle<Origin>) -> Tool {
-    Tool {
-        name: "T1".into(),
-        kind: CutterKind::Flat,
-        diameter: 16.0,
-        corner: 0.0,
-        profile: [0.0; 5],
-        number: Some(1),
-        flutes: None,
-        helix: None,
-        length: None,
-        stick_out: None,
-        material: None,
-        origin,
-    }
+    Tool::flat("T1", 16.0, Some(1), origin)
 }
 
 /// All three pictures of the lowered program.

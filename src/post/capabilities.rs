@@ -3,8 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::dialect::{Cycle, Dialect, DwellUnit, FullCircleWords, Spec};
-use crate::cl::cycle::CycleName;
 use crate::diag::{Diagnostic, codes, did_you_mean};
+use crate::ir::CycleName;
 use crate::ir::{Machine, Rotary};
 use crate::target::{
     Capabilities, FullCircle, Grid, NurbsForm, PathTolerance, Plane, Ranges, RotaryAxis, RotaryFeed,

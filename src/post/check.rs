@@ -5,8 +5,8 @@ use super::pattern::{Item, Place};
 use super::template::Renderer;
 use super::tree;
 use super::variables::Scope;
-use crate::cl::cycle::CycleName;
 use crate::diag::{Code, Diagnostic, codes, did_you_mean};
+use crate::ir::CycleName;
 use crate::source::Span;
 use crate::units::LengthUnit;
 

@@ -3,9 +3,9 @@
 use serde::Serialize;
 
 use super::events::Events;
-use super::number;
 use crate::ir::{CutterKind, Spindle, Tool};
 use crate::target::BlockKind;
+use crate::target::number;
 use crate::units::LengthUnit;
 
 /// What every template can read.

@@ -1,11 +1,11 @@
 //! NURBS curves, from their patterns.
 
 use super::events::Events;
-use super::number;
 use super::pattern::{Item, Named, Slot};
 use super::table::{WordFormat, word};
 use super::writer::split_feed;
 use crate::diag::codes;
+use crate::target::number;
 use crate::target::{FeedWord, Nurbs, Position};
 
 /// Words of NURBS blocks.

@@ -4,11 +4,11 @@ use minijinja::value::{Serde, Value};
 
 use super::context::CycleContext;
 use super::events::Events;
-use super::number::{self, Style};
 use super::pattern::Slot;
 use super::writer::split_feed;
 use crate::cl::{CycleKind, RetractTo};
 use crate::diag::codes;
+use crate::target::number::{self, Style};
 use crate::target::{Cycle, Position};
 
 impl Events<'_> {

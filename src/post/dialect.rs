@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use super::number::Style;
 pub use super::spec::{ByUnit, Cycle, DwellUnit, FullCircleWords, NumberingMode, Spec, Word};
 use super::tree::Table;
+use crate::target::number::Style;
 use crate::units::LengthUnit;
 
 /// A dialect, ready for lowering and writing.
@@ -90,7 +90,7 @@ impl Spec {
     #[must_use]
     pub fn range(&self, word: &str, unit: LengthUnit) -> i64 {
         let limit = self.words.get(word).and_then(|w| w.max).map_or(f64::INFINITY, |m| m.of(unit));
-        super::number::steps(limit, self.decimals(word, unit)).unwrap_or(1_000_000_000_000_000)
+        crate::target::number::steps(limit, self.decimals(word, unit)).unwrap_or(1_000_000_000_000_000)
     }
     /// The value of an option, whatever its case.
     #[must_use]

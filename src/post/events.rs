@@ -5,7 +5,6 @@ use minijinja::value::{Serde, Value};
 use super::check::template_error;
 use super::context::OperationContext;
 use super::dialect::{DwellUnit, NumberingMode, Spec};
-use super::number;
 use super::pattern::Item;
 use super::table::{PER_MINUTE, WordFormat, word};
 use super::template::Renderer;
@@ -13,6 +12,7 @@ use super::writer::{ModalState, Writer, WriterCarry};
 use crate::arena::Arena;
 use crate::diag::{Code, Diagnostic, codes};
 use crate::ir::{Coolant, Origin, Spindle};
+use crate::target::number;
 use crate::target::{BlockKind, Capabilities, TargetProgram};
 use crate::units::LengthUnit;
 
@@ -115,7 +115,7 @@ impl<'a> Events<'a> {
     }
 
     pub(super) fn error(&mut self, code: &'static Code, message: String) {
-        let diagnostic = crate::lower::place::at_origin(code, self.origins, self.writer.origin, message);
+        let diagnostic = crate::ir::at_origin(code, self.origins, self.writer.origin, message);
         self.writer.errors.push(diagnostic);
     }
 

@@ -21,7 +21,6 @@ mod json_schema;
 mod lint;
 mod load;
 mod motion;
-pub mod number;
 pub mod pattern;
 pub mod schema;
 mod spec;

@@ -1,13 +1,13 @@
 //! Motion blocks: straight moves, arcs, helices and holes, on the tables compiled from the patterns.
 
 use super::dialect::FullCircleWords;
-use super::number;
 use super::pattern::{Item, Slot};
 use super::table::{
     ARC_CCW, ARC_CW, ARC_PATTERN, HELIX_PATTERN, HOLE_PATTERN, INVERSE_TIME, LINE, LINE_PATTERN, PER_MINUTE,
     RAPID, RAPID_PATTERN,
 };
 use super::writer::{Writer, split_feed};
+use crate::target::number;
 use crate::target::{Motion, Plane, Position, axes};
 
 const ALL_AXES: u8 = axes::X | axes::Y | axes::Z | axes::ROTARY;

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 
 use super::comment::Comments;
-use super::number::Point;
+use crate::target::number::Point;
 use crate::units::LengthUnit;
 
 /// A value that may differ between millimetre and inch programs.

@@ -1,8 +1,8 @@
 //! The flat tables the writer runs on, compiled from a dialect for one program.
 
 use super::dialect::{Dialect, FullCircleWords, NumberingMode, Spec};
-use super::number::{self, Style};
 use super::pattern::{Item, SLOTS, Slot};
+use crate::target::number::{self, Style};
 use crate::target::{Capabilities, axes};
 use crate::units::LengthUnit;
 

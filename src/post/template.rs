@@ -1,6 +1,6 @@
 //! Templates of cold events: start, end, tool change, operations. Motion never comes here.
 //!
-//! Undefined variables are errors. Numbers are printed by [`super::number`], texts of the user come in cleaned
+//! Undefined variables are errors. Numbers are printed by [`crate::target::number`], texts of the user come in cleaned
 //! for comments already, so that a template cannot let them out.
 
 use std::collections::BTreeSet;
@@ -10,7 +10,7 @@ use minijinja::value::Value;
 use minijinja::{Environment, ErrorKind, UndefinedBehavior};
 
 use super::comment::Comments;
-use super::number;
+use crate::target::number;
 
 /// Steps a template may take.
 const FUEL: u64 = 100_000;

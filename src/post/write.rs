@@ -113,6 +113,6 @@ fn too_long(dialect: &Dialect, fault: &LineFault, origins: &Arena<Origin>) -> Di
     let limit = dialect.spec().line.max_length;
     let message =
         format!("{} takes lines of {limit} characters, this one has {}", dialect.title(), fault.length);
-    crate::lower::place::at_origin(&codes::post::LINE_TOO_LONG, origins, fault.origin, message)
+    crate::ir::at_origin(&codes::post::LINE_TOO_LONG, origins, fault.origin, message)
         .note(format!("the line is `{}`", fault.text))
 }

@@ -4,11 +4,11 @@
 //! Everything else is cold and goes through words or templates.
 
 use super::dialect::{Dialect, NumberingMode};
-use super::number;
 use super::table::{INVERSE_TIME, MotionTable, PER_MINUTE, PER_REVOLUTION, WordFormat};
 use crate::arena::Handle;
 use crate::diag::Diagnostic;
 use crate::ir::Origin;
+use crate::target::number;
 use crate::target::{FeedWord, Position};
 
 /// What the control remembers, as far as what was printed tells.

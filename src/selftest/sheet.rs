@@ -7,7 +7,7 @@ use crate::cl::CycleKind;
 use crate::cl::{Circle, Cl, Contour, Cycle, Guard, Lead, Operation, Record, RecordKind, RetractTo, Wall};
 use crate::geom::curve::{CircularArc, CurveRef};
 use crate::geom::{Point2, Point3, Side, Vec3};
-use crate::ir::{Band, CutterKind, Feed, Interpolation, Origin, Spindle, Tool};
+use crate::ir::{Band, Feed, Interpolation, Origin, Spindle, Tool};
 use crate::source::{FileId, Span};
 use crate::units::LengthUnit;
 
@@ -57,20 +57,7 @@ impl Sheet {
         self
     }
     pub fn tool(mut self, number: u32) -> Sheet {
-        let tool = self.cl.tools.push(Tool {
-            name: format!("T{number}"),
-            kind: CutterKind::Flat,
-            diameter: 10.0,
-            corner: 0.0,
-            profile: [0.0; 5],
-            number: Some(number),
-            flutes: None,
-            helix: None,
-            length: None,
-            stick_out: None,
-            material: None,
-            origin: self.origin,
-        });
+        let tool = self.cl.tools.push(Tool::flat(format!("T{number}"), 10.0, Some(number), self.origin));
         self.add(RecordKind::LoadTool(tool))
     }
     pub fn spindle(self, rpm: f64) -> Sheet {

@@ -2,9 +2,9 @@
 
 use super::Analyser;
 use super::matched::{Matched, Typed};
-use crate::cl::{Cycle, CycleKind, RetractTo};
 use crate::diag::Diagnostic;
 use crate::diag::codes::semantics as codes;
+use crate::ir::{Cycle, CycleKind, RetractTo};
 use crate::ir::{DrillCycle, Feed, StepKind};
 
 impl Analyser<'_> {

@@ -10,12 +10,13 @@
 use std::collections::BTreeSet;
 
 use crate::arena::Handle;
-use crate::cl::cycle::CycleName;
 use crate::geom::Side;
 use crate::geom::curve::CurveRef;
+use crate::ir::CycleName;
 use crate::ir::{Band, Coolant, Origin, Spindle, Tool};
 use crate::units::LengthUnit;
 
+pub mod number;
 pub mod print;
 
 /// The output grid: what one integer step means.

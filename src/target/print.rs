@@ -2,10 +2,10 @@
 
 use core::fmt::Write as _;
 
+use super::number::plain;
 use super::{Block, BlockKind, FeedWord, Grid, Motion, Nurbs, Plane, Position, TargetProgram, axes};
 use crate::cl::{CycleKind, RetractTo};
 use crate::ir::{Coolant, Spindle};
-use crate::post::number::plain;
 
 /// The whole program.
 #[must_use]

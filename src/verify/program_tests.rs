@@ -7,7 +7,7 @@ use crate::cl::{Cl, Contour, Guard, Lead, Operation, Record, RecordKind, Wall};
 use crate::diag::{Code, Sink};
 use crate::geom::curve::{CurveRef, Ends, Offset, Reversed, Spline};
 use crate::geom::{Point2, Point3, Side};
-use crate::ir::{Band, CutterKind, Feed, Interpolation, Machine, Origin, Rotary, Spindle, Tool};
+use crate::ir::{Band, Feed, Interpolation, Machine, Origin, Rotary, Spindle, Tool};
 use crate::math::{TAU, sin_cos};
 use crate::post::{Dialect, load, write};
 use crate::readback::{self, EventKind, TraceMove, TracePath};
@@ -36,20 +36,7 @@ fn origin(arena: &mut Arena<Origin>, at: usize) -> crate::arena::Handle<Origin> 
 }
 
 fn tool(origin: crate::arena::Handle<Origin>) -> Tool {
-    Tool {
-        name: "T1".to_owned(),
-        kind: CutterKind::Flat,
-        diameter: 10.0,
-        corner: 0.0,
-        profile: [0.0; 5],
-        number: Some(1),
-        flutes: Some(2),
-        helix: None,
-        length: None,
-        stick_out: None,
-        material: None,
-        origin,
-    }
+    Tool { flutes: Some(2), ..Tool::flat("T1", 10.0, Some(1), origin) }
 }
 
 /// The egg's wall cut in two levels.

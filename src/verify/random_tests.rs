@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use crate::cl::{Circle, Cl, Cycle, CycleKind, Record, RecordKind, RetractTo};
 use crate::diag::Sink;
 use crate::geom::{Point3, Vec3};
-use crate::ir::{Coolant, CutterKind, Feed, Origin, Spindle, Tool};
+use crate::ir::{Coolant, Feed, Origin, Spindle, Tool};
 use crate::math::{TAU, sin_cos};
 use crate::post::{builtin_names, load, write};
 use crate::source::{FileId, MemoryFiles, SourceMap, Span};
@@ -49,20 +49,7 @@ fn mm(hundredths: i32) -> f64 {
 fn cl(acts: &[Act], units: LengthUnit) -> Cl {
     let mut cl = Cl { units, ..Cl::default() };
     let origin = cl.origins.push(Origin { span: Span::new(FileId(0), 0, 5), calls: Vec::new() });
-    let tool = cl.tools.push(Tool {
-        name: "T1".to_owned(),
-        kind: CutterKind::Flat,
-        diameter: 10.0,
-        corner: 0.0,
-        profile: [0.0; 5],
-        number: Some(1),
-        flutes: Some(2),
-        helix: None,
-        length: None,
-        stick_out: None,
-        material: None,
-        origin,
-    });
+    let tool = cl.tools.push(Tool { flutes: Some(2), ..Tool::flat("T1", 10.0, Some(1), origin) });
     let mut kinds = vec![
         RecordKind::LoadTool(tool),
         RecordKind::Spindle(Spindle::On { rpm: 1200.0, clockwise: true }),

@@ -28,7 +28,9 @@ const PLANES: &[Choice] = &[
     word("YZPLAN", "in the YZ plane, from Y"),
     word("ZXPLAN", "in the ZX plane, from Z"),
 ];
-const BARE: Kind = Kind::Number(crate::units::Dim::NONE, Range::Any);
+pub(super) const BARE: Kind = Kind::Number(crate::units::Dim::NONE, Range::Any);
+/// An angle that needs no more words.
+pub(super) const ANGLE_ITEM: Item = value("angle", ANGLE, "angle");
 const PLANE_ITEM: Item = value("plane", Kind::Entity(&[EntityKind::Plane]), "plane");
 const SECOND_PLANE: Item = value("second", Kind::Entity(&[EntityKind::Plane]), "plane");
 const SECOND_LINE: Item = value("second", Kind::Entity(&[EntityKind::Line]), "line");
@@ -64,12 +66,7 @@ const POINT: &[Form] = &[
         &[],
     ),
     form("center", "centre of a circle", &[CENTER, CIRCLE_ITEM], &[]),
-    form(
-        "on circle",
-        "point of a circle at an angle to the X axis",
-        &[CIRCLE_ITEM, ATANGL, value("angle", ANGLE, "angle")],
-        &[],
-    ),
+    form("on circle", "point of a circle at an angle to the X axis", &[CIRCLE_ITEM, ATANGL, ANGLE_ITEM], &[]),
     form(
         "rtheta",
         "polar coordinates",
@@ -77,7 +74,7 @@ const POINT: &[Form] = &[
             Item::Word("polar", &[word("RTHETA", "radius, angle")]),
             POLAR,
             value("r", LENGTH, "radius"),
-            value("angle", ANGLE, "angle"),
+            ANGLE_ITEM,
         ],
         &[],
     ),
@@ -87,7 +84,7 @@ const POINT: &[Form] = &[
         &[
             Item::Word("polar", &[word("THETAR", "angle, radius")]),
             POLAR,
-            value("angle", ANGLE, "angle"),
+            ANGLE_ITEM,
             value("r", LENGTH, "radius"),
         ],
         &[],
@@ -161,7 +158,7 @@ const VECTOR: &[Form] = &[
             Item::Word("length", &[word("LENGTH", "length")]),
             value("size", NOT_NEGATIVE, "length"),
             ATANGL,
-            value("angle", ANGLE, "angle"),
+            ANGLE_ITEM,
             XYPLAN,
         ],
         &[],
@@ -200,7 +197,7 @@ const LINE: &[Form] = &[
         &[
             POINT_ITEM,
             ATANGL,
-            value("angle", ANGLE, "angle"),
+            ANGLE_ITEM,
             Item::Optional(slot("line", Kind::Entity(&[EntityKind::Line]), "line the angle counts from")),
         ],
         &[],
@@ -208,7 +205,7 @@ const LINE: &[Form] = &[
     form(
         "angle to axis",
         "through a point at an angle to an axis",
-        &[POINT_ITEM, ATANGL, value("angle", ANGLE, "angle"), Item::Word("axis", AXES)],
+        &[POINT_ITEM, ATANGL, ANGLE_ITEM, Item::Word("axis", AXES)],
         &[],
     ),
     form(
@@ -220,12 +217,7 @@ const LINE: &[Form] = &[
     form(
         "angle intercept",
         "at an angle to the X axis, through a point of the Y axis (or of the axis said)",
-        &[
-            ATANGL,
-            value("angle", ANGLE, "angle"),
-            INTERC,
-            value("intercept", LENGTH, "where it meets the axis"),
-        ],
+        &[ATANGL, ANGLE_ITEM, INTERC, value("intercept", LENGTH, "where it meets the axis")],
         &[],
     ),
     form(
@@ -233,7 +225,7 @@ const LINE: &[Form] = &[
         "at an angle to the X axis, through a point of the axis said",
         &[
             ATANGL,
-            value("angle", ANGLE, "angle"),
+            ANGLE_ITEM,
             INTERC,
             Item::Word("axis", AXES),
             value("intercept", LENGTH, "where it meets the axis"),

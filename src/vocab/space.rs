@@ -1,13 +1,12 @@
 //! Planes, matrices, patterns of points.
 
-use super::geometry::{CANON, CIRCLE_ITEM, PARLEL, PERPTO, POINT_ITEM, row};
+use super::geometry::{ANGLE_ITEM, BARE, CANON, CIRCLE_ITEM, PARLEL, PERPTO, POINT_ITEM, row};
 use super::{
     ANGLE, Choice, Choices, EntityKind, Form, Item, Kind, LENGTH, Member, NOT_NEGATIVE, POSITIVE, Range,
     Statement, form, member, optional, slot, value, with, word,
 };
 use crate::units::Dim;
 
-const BARE: Kind = Kind::Number(Dim::NONE, Range::Any);
 const PLANE_KIND: Kind = Kind::Entity(&[EntityKind::Plane]);
 const MATRIX_KIND: Kind = Kind::Entity(&[EntityKind::Matrix]);
 const PATTERN_KIND: Kind = Kind::Entity(&[EntityKind::Pattern]);
@@ -90,7 +89,7 @@ const PLANE_MEMBERS: &[Member] = &[
     member("DISTANCE", "length", "d: distance from the origin along the normal"),
 ];
 
-const TURN: &[Item] = &[value("angle", ANGLE, "angle")];
+const TURN: &[Item] = &[ANGLE_ITEM];
 
 const fn turn(word: &'static [Choice]) -> Choices {
     with("rotation", word, TURN, false, "")

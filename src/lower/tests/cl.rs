@@ -7,7 +7,7 @@ use crate::geom::curve::CurveRef;
 use crate::geom::follower::Follower;
 use crate::geom::motion::{Law, Motion, Segment, SegmentLaw};
 use crate::geom::{Point3, Side};
-use crate::ir::{Band, CutterKind, Feed, Interpolation, Origin, Spindle, Tool};
+use crate::ir::{Band, Feed, Interpolation, Origin, Spindle, Tool};
 use crate::source::{FileId, Span};
 use crate::units::Angle;
 
@@ -21,20 +21,7 @@ impl Draft {
     pub fn new() -> Draft {
         let mut cl = Cl::default();
         let origin = cl.origins.push(Origin { span: Span::new(FileId(0), 0, 1), calls: Vec::new() });
-        let tool = cl.tools.push(Tool {
-            name: "T1".into(),
-            kind: CutterKind::Flat,
-            diameter: 16.0,
-            corner: 0.0,
-            profile: [0.0; 5],
-            number: None,
-            flutes: None,
-            helix: None,
-            length: None,
-            stick_out: None,
-            material: None,
-            origin,
-        });
+        let tool = cl.tools.push(Tool::flat("T1", 16.0, None, origin));
         Draft { cl, origin }
             .add(RecordKind::LoadTool(tool))
             .add(RecordKind::Spindle(Spindle::On { rpm: 1200.0, clockwise: true }))

@@ -1,7 +1,7 @@
 //! Hand-made target programs.
 
 use crate::arena::{Arena, Handle};
-use crate::ir::{CutterKind, Machine, Origin, Rotary, Tool};
+use crate::ir::{Machine, Origin, Rotary, Tool};
 use crate::post::{Dialect, Written, load, write};
 use crate::source::{FileId, MemoryFiles, SourceMap, Span};
 use crate::target::{Block, BlockKind, FeedWord, Motion, Nurbs, Position, TargetProgram, axes};
@@ -155,18 +155,5 @@ impl Sheet {
 }
 
 fn tool(origin: Handle<Origin>) -> Tool {
-    Tool {
-        name: "T1".into(),
-        kind: CutterKind::Flat,
-        diameter: 16.0,
-        corner: 0.0,
-        profile: [0.0; 5],
-        number: Some(1),
-        flutes: None,
-        helix: None,
-        length: None,
-        stick_out: None,
-        material: None,
-        origin,
-    }
+    Tool::flat("T1", 16.0, Some(1), origin)
 }

@@ -11,6 +11,7 @@ mod codes;
 mod controls;
 mod cycle;
 mod frame;
+mod iso;
 mod machine;
 mod motion;
 mod nurbs;

@@ -1,6 +1,7 @@
 //! Fanuc 30i milling, G-code system of machining centres.
 
-use super::super::codes::{CycleKind, G, Group, M, Mode, Plane};
+use super::super::codes::{CycleKind, G, Group, M, Mode};
+use super::super::iso;
 use super::super::rules::{ArcEnd, Cycles, Dwell, FeedReset, Frame, Language, RotaryFeed, Rules, Unpointed};
 use crate::readback::FeedMode;
 
@@ -78,60 +79,19 @@ pub(in crate::readback::word) const CYCLES: Cycles = Cycles {
     bore_dwell_feeds_back: false,
 };
 
-/// The drilling cycles that most controls share.
-pub(in crate::readback::word) fn cycle(tenths: u16) -> Option<G> {
-    Some(G::Motion(Mode::Cycle(match tenths {
-        730 => CycleKind::ChipBreak,
-        740 => CycleKind::Tap { left: true },
-        760 => CycleKind::Fine,
-        810 => CycleKind::Drill,
-        820 => CycleKind::Dwell,
-        830 => CycleKind::Deep,
-        840 => CycleKind::Tap { left: false },
-        850 => CycleKind::Bore,
-        860 => CycleKind::BoreStop,
-        890 => CycleKind::BoreDwell,
-        _ => return None,
-    })))
-}
-
-/// G54 to G59, by number from 1.
-pub(in crate::readback::word) fn offset(tenths: u16) -> Option<G> {
-    (matches!(tenths, 540..=590) && tenths.is_multiple_of(10)).then(|| G::WorkOffset((tenths - 530) / 10))
-}
-
 pub(in crate::readback::word) fn g(tenths: u16) -> Option<G> {
     Some(match tenths {
-        0 => G::Motion(Mode::Rapid),
-        10 => G::Motion(Mode::Linear),
-        20 => G::Motion(Mode::Arc { clockwise: true }),
-        30 => G::Motion(Mode::Arc { clockwise: false }),
-        40 => G::Dwell,
         62 => G::Motion(Mode::NurbsKnots),
-        170 => G::Plane(Plane::Xy),
-        180 => G::Plane(Plane::Zx),
-        190 => G::Plane(Plane::Yz),
-        200 => G::Units { inch: true },
-        210 => G::Units { inch: false },
-        280 | 300 => G::Reference,
-        400 => G::RadiusOff,
         430 => G::LengthOn,
-        490 => G::LengthOff,
-        530 => G::MachineCoordinates,
         541 => G::WorkOffset(0),
-        610 => G::ExactPath,
         640 => G::NoEffect(Group::Path),
         800 => G::CycleEnd,
-        900 => G::Distance { incremental: false },
-        910 => G::Distance { incremental: true },
-        930 => G::Feed(FeedMode::InverseTime),
-        940 => G::Feed(FeedMode::PerMinute),
         950 => G::Feed(FeedMode::PerRevolution),
         150 | 501 | 500 | 670 | 690 | 131 => G::NoEffect(Group::Other),
         50 | 51 | 80 => G::NoEffect(Group::Once),
         970 => G::NoEffect(Group::Speed),
         980 | 990 => G::Return { to_r: tenths == 990 },
-        _ => return offset(tenths).or_else(|| cycle(tenths)).or_else(|| unfollowed(tenths)),
+        _ => return iso::rs274(tenths).or_else(|| iso::cycle(tenths)).or_else(|| unfollowed(tenths)),
     })
 }
 
@@ -151,17 +111,9 @@ fn unfollowed(tenths: u16) -> Option<G> {
 
 pub(in crate::readback::word) fn m(tenths: u16) -> Option<M> {
     Some(match tenths {
-        0 => M::Stop { optional: false },
-        10 => M::Stop { optional: true },
-        20 | 300 => M::End,
-        30 => M::SpindleOn { clockwise: true },
-        40 => M::SpindleOn { clockwise: false },
-        50 => M::SpindleOff,
         60 => M::ToolChange,
-        70 | 80 => M::CoolantOn { mist: tenths == 70 },
-        90 => M::CoolantOff,
         290 | 480 | 490 => M::NoEffect,
         190 | 980 | 990 | 1980 => M::Unfollowed,
-        _ => return None,
+        _ => return iso::m(tenths),
     })
 }

@@ -1,8 +1,8 @@
 //! Grbl 1.1, from its list of supported codes and its error codes.
 
-use super::super::codes::{G, Group, M, Mode, Plane};
+use super::super::codes::{G, Group};
+use super::super::iso;
 use super::super::rules::{ArcEnd, Dwell, FeedReset, Frame, Language, RotaryFeed, Rules, Unpointed};
-use crate::readback::FeedMode;
 
 pub(super) const RULES: Rules = Rules {
     name: "grbl",
@@ -29,7 +29,7 @@ pub(super) const RULES: Rules = Rules {
     largest_inverse: f64::INFINITY,
     most_m: 4,
     g,
-    m,
+    m: iso::m,
     dwell: &[(b'P', Dwell::Seconds)],
     cycles: None,
     tool_change: false,
@@ -51,7 +51,7 @@ pub(super) const RULES: Rules = Rules {
     arc_needs_end: true,
     arc_end: ArcEnd::Spiral,
     arc_mode_stated: false,
-    largest_difference,
+    largest_difference: iso::radius_difference,
     arc_complaint: "error:33, invalid target: the arc's radii differ",
     full_circle_fuzz: 5e-7,
     smallest_radius: 0.0,
@@ -59,51 +59,12 @@ pub(super) const RULES: Rules = Rules {
     unused: "error:36, unused value word",
 };
 
-/// 0.5 mm, or 0.005 mm and 0.1 % of the radius.
-fn largest_difference(radius: f64, _inch: bool) -> f64 {
-    (0.001 * radius).clamp(0.005, 0.5)
-}
-
 pub(super) fn g(tenths: u16) -> Option<G> {
     Some(match tenths {
-        0 => G::Motion(Mode::Rapid),
-        10 => G::Motion(Mode::Linear),
-        20 => G::Motion(Mode::Arc { clockwise: true }),
-        30 => G::Motion(Mode::Arc { clockwise: false }),
-        40 => G::Dwell,
-        170 => G::Plane(Plane::Xy),
-        180 => G::Plane(Plane::Zx),
-        190 => G::Plane(Plane::Yz),
-        200 => G::Units { inch: true },
-        210 => G::Units { inch: false },
-        280 | 300 => G::Reference,
-        400 => G::RadiusOff,
-        490 => G::LengthOff,
-        530 => G::MachineCoordinates,
-        610 => G::ExactPath,
-        800 => G::Motion(Mode::None),
-        900 => G::Distance { incremental: false },
-        910 => G::Distance { incremental: true },
         911 => G::ArcDistance { incremental: true },
-        930 => G::Feed(FeedMode::InverseTime),
-        940 => G::Feed(FeedMode::PerMinute),
         382..=385 => G::Unfollowed(Group::Motion),
         431 => G::Unfollowed(Group::Length),
         100 | 281 | 301 | 920 | 921 => G::Unfollowed(Group::Once),
-        _ => return super::fanuc::offset(tenths),
-    })
-}
-
-pub(super) fn m(tenths: u16) -> Option<M> {
-    Some(match tenths {
-        0 => M::Stop { optional: false },
-        10 => M::Stop { optional: true },
-        20 | 300 => M::End,
-        30 => M::SpindleOn { clockwise: true },
-        40 => M::SpindleOn { clockwise: false },
-        50 => M::SpindleOff,
-        70 | 80 => M::CoolantOn { mist: tenths == 70 },
-        90 => M::CoolantOff,
-        _ => return None,
+        _ => return iso::rs274(tenths),
     })
 }

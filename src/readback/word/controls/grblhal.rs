@@ -1,8 +1,9 @@
 //! grblHAL, from its list of supported codes: Grbl with cycles, turns in arcs and tools.
 
-use super::super::codes::{CycleKind, G, Group, M, Mode};
+use super::super::codes::{CycleKind, G, Group, M};
+use super::super::iso;
 use super::super::rules::{Cycles, Dwell, Rules};
-use super::{fanuc, grbl, linuxcnc};
+use super::{grbl, linuxcnc};
 
 /// Tool tables are an option of the build, so that cuts need neither M6 nor G43.
 pub(super) const RULES: Rules =
@@ -17,7 +18,7 @@ const CYCLES: Cycles = Cycles {
 
 fn g(tenths: u16) -> Option<G> {
     Some(match tenths {
-        730 | 810 | 820 | 830 | 850 | 860 | 890 => return fanuc::cycle(tenths),
+        730 | 810 | 820 | 830 | 850 | 860 | 890 => return iso::cycle(tenths),
         980 | 990 => G::Return { to_r: tenths == 990 },
         430 => G::LengthOn,
         591..=593 => G::WorkOffset(tenths - 584),
@@ -26,7 +27,6 @@ fn g(tenths: u16) -> Option<G> {
         50 | 51 | 330 | 760 => G::Unfollowed(Group::Motion),
         432 => G::Unfollowed(Group::Length),
         510 => G::Unfollowed(Group::Other),
-        800 => G::Motion(Mode::None),
         _ => return grbl::g(tenths),
     })
 }
@@ -34,6 +34,6 @@ fn g(tenths: u16) -> Option<G> {
 fn m(tenths: u16) -> Option<M> {
     Some(match tenths {
         60 => M::ToolChange,
-        _ => return grbl::m(tenths),
+        _ => return iso::m(tenths),
     })
 }

@@ -31,7 +31,6 @@ fn g(tenths: u16) -> Option<G> {
         120 | 130 => G::Unfollowed(Group::Once),
         1030 => G::NoEffect(Group::Once),
         1070 | 1120 | 1130 | 2340 | 2350 | 2540 | 2550 => G::Unfollowed(Group::Other),
-        640 => G::NoEffect(Group::Path),
         _ => return fanuc::g(tenths),
     })
 }

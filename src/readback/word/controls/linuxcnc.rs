@@ -1,6 +1,7 @@
 //! LinuxCNC, from its G-code reference and the behaviour of its interpreter.
 
-use super::super::codes::{CycleKind, G, Group, M, Mode, Plane};
+use super::super::codes::{CycleKind, G, Group, M, Mode};
+use super::super::iso;
 use super::super::rules::{ArcEnd, Cycles, Dwell, FeedReset, Frame, Language, RotaryFeed, Rules, Unpointed};
 use crate::readback::FeedMode;
 
@@ -60,18 +61,14 @@ pub(super) const RULES: Rules = Rules {
     arc_needs_end: false,
     arc_end: ArcEnd::Spiral,
     arc_mode_stated: false,
-    largest_difference,
+    // The manual's bound, which is tighter than the source's.
+    largest_difference: iso::radius_difference,
     arc_complaint: "Radius to end of arc differs from radius to start",
     full_circle_fuzz: 1e-6,
     smallest_radius: 0.001_27,
     no_feed: "with zero feed rate",
     unused: "no code in the block uses it",
 };
-
-/// The manual's bound, tighter than the source's: 0.5 mm, or 0.005 mm and 0.1 % of the radius.
-fn largest_difference(radius: f64, _inch: bool) -> f64 {
-    (0.001 * radius).clamp(0.005, 0.5)
-}
 
 /// The distance back is a setting of 0.010 in; newer versions take a D word for it, which older ones refuse.
 pub(super) const CYCLES: Cycles = Cycles {
@@ -94,42 +91,22 @@ pub(super) const CYCLES: Cycles = Cycles {
 
 pub(super) fn g(tenths: u16) -> Option<G> {
     Some(match tenths {
-        0 => G::Motion(Mode::Rapid),
-        10 => G::Motion(Mode::Linear),
-        20 => G::Motion(Mode::Arc { clockwise: true }),
-        30 => G::Motion(Mode::Arc { clockwise: false }),
-        40 => G::Dwell,
         52 => G::Motion(Mode::NurbsPoints),
         53 => G::NurbsEnd,
-        170 => G::Plane(Plane::Xy),
-        180 => G::Plane(Plane::Zx),
-        190 => G::Plane(Plane::Yz),
-        200 => G::Units { inch: true },
-        210 => G::Units { inch: false },
-        280 | 300 => G::Reference,
-        400 => G::RadiusOff,
         430 => G::LengthOn,
-        490 => G::LengthOff,
-        530 => G::MachineCoordinates,
         591..=593 => G::WorkOffset(tenths - 584),
-        610 | 611 => G::ExactPath,
+        611 => G::ExactPath,
         640 => G::Blend,
         800 => G::CycleEnd,
-        900 => G::Distance { incremental: false },
-        910 => G::Distance { incremental: true },
         901 => G::ArcDistance { incremental: false },
         911 => G::ArcDistance { incremental: true },
-        930 => G::Feed(FeedMode::InverseTime),
-        940 => G::Feed(FeedMode::PerMinute),
         950 => G::Feed(FeedMode::PerRevolution),
         970 => G::NoEffect(Group::Speed),
         980 | 990 => G::Return { to_r: tenths == 990 },
         80 => G::NoEffect(Group::Other),
         760 => return unfollowed(tenths),
         _ => {
-            return super::fanuc::offset(tenths)
-                .or_else(|| super::fanuc::cycle(tenths))
-                .or_else(|| unfollowed(tenths));
+            return iso::rs274(tenths).or_else(|| iso::cycle(tenths)).or_else(|| unfollowed(tenths));
         }
     })
 }
@@ -149,17 +126,9 @@ fn unfollowed(tenths: u16) -> Option<G> {
 
 fn m(tenths: u16) -> Option<M> {
     Some(match tenths {
-        0 => M::Stop { optional: false },
-        10 => M::Stop { optional: true },
-        20 | 300 => M::End,
-        30 => M::SpindleOn { clockwise: true },
-        40 => M::SpindleOn { clockwise: false },
-        50 => M::SpindleOff,
         60 => M::ToolChange,
-        70 | 80 => M::CoolantOn { mist: tenths == 70 },
-        90 => M::CoolantOff,
         480 | 490 | 500 | 510 | 520 | 530 => M::NoEffect,
         190 | 600..=730 | 980 | 990 | 1000..=1990 => M::Unfollowed,
-        _ => return None,
+        _ => return iso::m(tenths),
     })
 }

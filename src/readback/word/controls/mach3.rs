@@ -2,7 +2,7 @@
 
 use super::super::codes::{G, Group, Mode};
 use super::super::rules::{Cycles, Dwell, FeedReset, Frame, Rules, Unpointed};
-use super::{fanuc, linuxcnc};
+use super::linuxcnc;
 
 /// With `G04 Dwell param in Milliseconds` off. What I J K count from is a setting, too, so that an arc needs G90.1 or
 /// G91.1; without G61 (or under G64) corners are cut without a bound.
@@ -36,9 +36,8 @@ const CYCLES: Cycles = Cycles { dwell: Dwell::Milliseconds, ..SECONDS };
 fn g(tenths: u16) -> Option<G> {
     Some(match tenths {
         52 | 53 | 74 | 591..=593 | 740 | 760 | 80 | 611 => return None,
-        150 => G::NoEffect(Group::Other),
         800 => G::Motion(Mode::None),
-        500 => G::NoEffect(Group::Other),
-        _ => return linuxcnc::g(tenths).or_else(|| fanuc::offset(tenths)),
+        150 | 500 => G::NoEffect(Group::Other),
+        _ => return linuxcnc::g(tenths),
     })
 }

@@ -1,6 +1,7 @@
 //! Marlin and Smoothieware, from their command references.
 
-use super::super::codes::{G, Group, M, Mode, Plane};
+use super::super::codes::{G, Group, M, Mode};
+use super::super::iso;
 use super::super::rules::{ArcEnd, Dwell, FeedReset, Frame, Rules};
 use super::grbl;
 
@@ -49,22 +50,12 @@ pub(super) const SMOOTHIEWARE_GRBL: Rules = Rules {
 
 fn g(tenths: u16) -> Option<G> {
     Some(match tenths {
-        0 => G::Motion(Mode::Rapid),
-        10 => G::Motion(Mode::Linear),
-        20 | 30 => G::Motion(Mode::Arc { clockwise: tenths == 20 }),
-        40 => G::Dwell,
-        170 => G::Plane(Plane::Xy),
-        180 => G::Plane(Plane::Zx),
-        190 => G::Plane(Plane::Yz),
         200 | 210 => G::Units { inch: tenths == 200 },
         280 => G::Reference,
-        900 | 910 => G::Distance { incremental: tenths == 910 },
-        530 => G::MachineCoordinates,
-        540..=590 => return super::fanuc::offset(tenths),
         50 | 60 => G::Unfollowed(Group::Motion),
         100 | 110 | 270 | 290 | 300 | 382..=385 | 920 => G::Unfollowed(Group::Once),
         800 => G::Motion(Mode::None),
-        _ => return None,
+        _ => return iso::g(tenths).or_else(|| iso::offset(tenths)),
     })
 }
 
@@ -74,7 +65,6 @@ fn smoothie(tenths: u16) -> Option<G> {
         400 => G::RadiusOff,
         490 => G::LengthOff,
         940 => G::NoEffect(Group::Feed),
-        800 => G::Motion(Mode::None),
         50 => return None,
         _ => return g(tenths),
     })
@@ -82,15 +72,10 @@ fn smoothie(tenths: u16) -> Option<G> {
 
 fn m(tenths: u16) -> Option<M> {
     Some(match tenths {
-        0 => M::Stop { optional: false },
-        10 => M::Stop { optional: true },
         // Motors off, wait for moves to finish, absolute E: nothing that moves.
         180 | 840 | 820 | 4000 => M::NoEffect,
-        30 => M::SpindleOn { clockwise: true },
-        40 => M::SpindleOn { clockwise: false },
-        50 => M::SpindleOff,
-        70 | 80 => M::CoolantOn { mist: tenths == 70 },
-        90 => M::CoolantOff,
-        _ => return None,
+        // M30 deletes a file, and no code ends a program.
+        20 | 300 => return None,
+        _ => return iso::m(tenths),
     })
 }

@@ -1,6 +1,6 @@
 //! Okuma OSP machining centres, from a published post and programming manuals.
 
-use super::super::codes::{CycleKind, G, Group, M};
+use super::super::codes::{G, Group, M};
 use super::super::rules::{Cycles, Dwell, Frame, Rules, Unpointed};
 use super::fanuc;
 
@@ -24,30 +24,15 @@ pub(super) const RULES: Rules = Rules {
     ..fanuc::RULES
 };
 
-const CYCLES: Cycles = Cycles {
-    dwell: Dwell::Seconds,
-    with_dwell: &[
-        CycleKind::Dwell,
-        CycleKind::Tap { left: false },
-        CycleKind::Tap { left: true },
-        CycleKind::BoreDwell,
-        CycleKind::Fine,
-    ],
-    return_height: true,
-    repeats: b'L',
-    ..fanuc::CYCLES
-};
+const CYCLES: Cycles = Cycles { dwell: Dwell::Seconds, return_height: true, repeats: b'L', ..fanuc::CYCLES };
 
 fn g(tenths: u16) -> Option<G> {
     Some(match tenths {
         150 => G::WorkOffset(0),
         160 => G::MachineCoordinates,
-        300 => G::Reference,
         560 => G::LengthOn,
         530 => G::LengthOff,
         710 => G::ReturnHeight,
-        // Feed and modes that have no effect on the path in the form a safe start gives them.
-        640 => G::NoEffect(Group::Path),
         930 | 541 | 62 | 280 | 430 | 490 | 540 | 550 | 570..=590 | 980 | 990 => return None,
         1310 => G::NoEffect(Group::Other),
         _ => return fanuc::g(tenths),

@@ -3,8 +3,9 @@
 //! Its blocks are cut by a lexer of their own and executed by the same machine as all word-address programs. Names of the
 //! language (`SUPA`, `COMPCAD` …) stand among the G codes, from 1000 up.
 
-use super::codes::{G, Group, M, Mode, Plane};
+use super::codes::{G, Group, M, Mode};
 use super::controls::fanuc;
+use super::iso;
 use super::rules::{Cycles, Dwell, FeedReset, Frame, Language, RotaryFeed, Rules};
 use crate::readback::FeedMode;
 
@@ -135,16 +136,9 @@ pub(super) fn name(code: u16) -> Option<&'static str> {
 
 fn g(tenths: u16) -> Option<G> {
     Some(match tenths {
-        0 => G::Motion(Mode::Rapid),
-        10 => G::Motion(Mode::Linear),
-        20 | 30 => G::Motion(Mode::Arc { clockwise: tenths == 20 }),
-        40 => G::Dwell,
         90 => G::NoEffect(Group::Once),
-        170 => G::Plane(Plane::Xy),
-        180 => G::Plane(Plane::Zx),
-        190 => G::Plane(Plane::Yz),
         400 => G::RadiusOff,
-        530 | 1530 | 10_000 => G::MachineCoordinates,
+        1530 | 10_000 => G::MachineCoordinates,
         540..=570 if tenths.is_multiple_of(10) => G::WorkOffset((tenths - 530) / 10),
         5050..=5990 if tenths.is_multiple_of(10) => G::WorkOffset((tenths - 5000) / 10),
         600 => G::ExactPath,
@@ -152,7 +146,6 @@ fn g(tenths: u16) -> Option<G> {
         640..=645 | 6410 | 6420 | 6430 | 6440 | 6450 => G::Blend,
         710 | 7100 => G::Units { inch: false },
         7000 => G::Units { inch: true },
-        900 | 910 => G::Distance { incremental: tenths == 910 },
         10_200 => G::Motion(Mode::BSpline),
         930 => G::Feed(FeedMode::InverseTime),
         940 => G::Feed(FeedMode::PerMinute),
@@ -161,7 +154,7 @@ fn g(tenths: u16) -> Option<G> {
         4500 | 4510 => G::NoEffect(Group::Other),
         10_010 | 10_030..=10_120 => G::NoEffect(Group::Other),
         10_020..=10_022 => G::Compressor,
-        _ => return unfollowed(tenths),
+        _ => return iso::g(tenths).or_else(|| unfollowed(tenths)),
     })
 }
 
@@ -180,17 +173,9 @@ fn unfollowed(tenths: u16) -> Option<G> {
 
 fn m(tenths: u16) -> Option<M> {
     Some(match tenths {
-        0 => M::Stop { optional: false },
-        10 => M::Stop { optional: true },
-        20 | 300 => M::End,
-        30 => M::SpindleOn { clockwise: true },
-        40 => M::SpindleOn { clockwise: false },
-        50 => M::SpindleOff,
         60 => M::ToolChange,
-        70 | 80 => M::CoolantOn { mist: tenths == 70 },
-        90 => M::CoolantOff,
         400..=450 => M::NoEffect,
         170 | 190 | 700 => M::Unfollowed,
-        _ => return None,
+        _ => return iso::m(tenths),
     })
 }

@@ -1,8 +1,8 @@
 //! Diagnostics at the place of a record.
 
+use super::Origin;
 use crate::arena::{Arena, Handle};
 use crate::diag::{Code, Diagnostic};
-use crate::ir::Origin;
 
 /// A message at a statement, with the calls that led to it.
 #[must_use]

@@ -1,6 +1,6 @@
 //! Drilling cycles.
 
-use crate::ir::Feed;
+use super::Feed;
 
 /// A drilling cycle, with everything that a hole needs but its place.
 #[derive(Debug, Clone, Copy, PartialEq)]
