@@ -107,6 +107,8 @@ pub enum CutterKind {
     Bull,
     /// Conical.
     Taper,
+    /// A drill: cuts with its point only.
+    Drill,
 }
 
 /// A cutter; APT's seven parameters plus what a shop knows of it.

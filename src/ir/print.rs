@@ -158,6 +158,7 @@ fn tool_text(tool: &Tool) -> String {
         CutterKind::Ball => "ball",
         CutterKind::Bull => "bull",
         CutterKind::Taper => "taper",
+        CutterKind::Drill => "drill",
     };
     let [e, f, a, b, h] = tool.profile;
     let mut text = format!(

@@ -3,22 +3,22 @@
 use super::Planner;
 use crate::arena::Handle;
 use crate::diag::Diagnostic;
-use crate::diag::codes::planning::{HOLDER_RUBS, ROUNDED_END, TAPERED_WALL, TOO_DEEP};
+use crate::diag::codes::planning::{DRILL_MILLS, HOLDER_RUBS, ROUNDED_END, TAPERED_WALL, TOO_DEEP};
 use crate::ir::{CutterKind, Origin, Tool};
 
 impl Planner<'_> {
     /// Whether the cutter can cut a wall of this depth, mm; says what is wrong or worth knowing.
     pub(super) fn check_cutter(&mut self, tool: Handle<Tool>, depth: f64, origin: Handle<Origin>) -> bool {
         let cutter = &self.program.tools[tool];
-        self.check_end(cutter, origin);
+        let cuts = self.check_end(cutter, origin);
         self.check_holder(cutter, depth, origin);
-        self.check_reach(cutter, depth, origin)
+        self.check_reach(cutter, depth, origin) && cuts
     }
 
-    fn check_end(&mut self, cutter: &Tool, origin: Handle<Origin>) {
+    fn check_end(&mut self, cutter: &Tool, origin: Handle<Origin>) -> bool {
         let declared = self.span(cutter.origin);
         let diagnostic = match cutter.kind {
-            CutterKind::Flat => return,
+            CutterKind::Flat => return true,
             CutterKind::Ball | CutterKind::Bull => {
                 let corner = match cutter.kind {
                     CutterKind::Ball => cutter.diameter / 2.0,
@@ -32,13 +32,20 @@ impl Planner<'_> {
                 Diagnostic::new(&ROUNDED_END, self.span(origin), message)
                     .help(format!("add {corner} to DEPTH where the wall must be straight to its foot"))
             }
+            CutterKind::Drill => {
+                let message = format!("{} is a drill, which cuts with its point only", cutter.name);
+                Diagnostic::new(&DRILL_MILLS, self.span(origin), message)
+                    .help("load an end mill, or drill holes with `CYCLE/ DRILL`")
+            }
             CutterKind::Taper => {
                 let message = format!("cutter {} is tapered: the wall will slope by its angle", cutter.name);
                 Diagnostic::new(&TAPERED_WALL, self.span(origin), message)
                     .help("the contour is exact at the height where the cutter has its nominal diameter")
             }
         };
+        let cuts = cutter.kind != CutterKind::Drill;
         self.report(diagnostic.label(declared, "the cutter is declared here"), origin);
+        cuts
     }
 
     fn check_holder(&mut self, cutter: &Tool, depth: f64, origin: Handle<Origin>) {

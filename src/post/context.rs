@@ -154,6 +154,7 @@ impl<'a> Events<'a> {
             CutterKind::Ball => "ball",
             CutterKind::Bull => "bull",
             CutterKind::Taper => "taper",
+            CutterKind::Drill => "drill",
         };
         let number = tool.number.unwrap_or(0);
         let name = self.writer.dialect.spec.comments.clean(&tool.name);

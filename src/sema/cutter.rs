@@ -89,6 +89,7 @@ impl Analyser<'_> {
                 }
                 Shape::plain(CutterKind::Bull, d, r)
             }
+            Some("DRILL") => Shape::plain(CutterKind::Drill, d, 0.0),
             Some("TAPER") => Shape::plain(CutterKind::Taper, d, r),
             _ => Shape::plain(CutterKind::Flat, d, r),
         };

@@ -169,7 +169,7 @@ impl<'a> Analyser<'a> {
 
     /// Adds a message, with the calls that led here.
     fn report(&mut self, diagnostic: Diagnostic) {
-        self.report.push(diagnostic, &self.calls);
+        self.report.push(diagnostic, &self.calls, self.executed);
     }
 
     /// The program's unit of length.

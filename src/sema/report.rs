@@ -22,36 +22,53 @@ pub struct Call {
 /// Calls shown in one message; of more, the outermost and the innermost.
 const CALLS_SHOWN: usize = 4;
 
+/// What has been said with one code at one place.
+#[derive(Debug)]
+struct Seen {
+    /// The statement, as carried out, that said it first: what else it says there are mistakes of their own.
+    execution: u64,
+    /// In [`Report::items`].
+    items: Vec<usize>,
+}
+
 /// Collects the messages of the analysis.
 #[derive(Debug, Default)]
 pub struct Report {
     items: Vec<(Diagnostic, u64)>,
     /// By code and place; what has no place, by its text.
-    seen: BTreeMap<(&'static str, Option<Span>, String), usize>,
+    seen: BTreeMap<(&'static str, Option<Span>, String), Seen>,
     errors: usize,
     repeats: u64,
 }
 
 impl Report {
-    /// Adds a message that arose in `calls`; a repetition of an earlier one is only counted.
-    pub fn push(&mut self, diagnostic: Diagnostic, calls: &[Call]) {
+    /// Adds a message that arose in `calls`, when statement number `execution` was carried out; what a later statement
+    /// says with the same code at the same place is only counted.
+    pub fn push(&mut self, diagnostic: Diagnostic, calls: &[Call], execution: u64) {
         let place = diagnostic.primary.as_ref().map(|p| p.span);
         let text = if place.is_none() { diagnostic.message.clone() } else { String::new() };
-        let key = (diagnostic.code.id, place, text);
-        if let Some(&index) = self.seen.get(&key) {
+        let next = self.items.len();
+        let seen = self
+            .seen
+            .entry((diagnostic.code.id, place, text))
+            .or_insert_with(|| Seen { execution, items: Vec::new() });
+        let same = |i: &&usize| self.items.get(**i).is_some_and(|(d, _)| d.message == diagnostic.message);
+        let earlier = seen.items.iter().find(same);
+        let earlier = if seen.execution == execution { earlier } else { earlier.or(seen.items.first()) };
+        if let Some(&index) = earlier {
             if let Some((_, times)) = self.items.get_mut(index) {
-                *times += 1;
+                *times += u64::from(seen.execution != execution);
                 self.repeats += 1;
             }
             return;
         }
         self.errors += usize::from(diagnostic.severity == Severity::Error);
-        if self.items.len() >= limits::MESSAGES {
-            return;
+        if next < limits::MESSAGES {
+            seen.items.push(next);
+            self.items.push((with_calls(diagnostic, calls), 1));
         }
-        self.seen.insert(key, self.items.len());
-        self.items.push((with_calls(diagnostic, calls), 1));
     }
+
     /// Number of errors so far.
     #[must_use]
     pub fn errors(&self) -> usize {

@@ -50,6 +50,7 @@ const KINDS: &[Choice] = &[
     word("BALL", "spherical end"),
     word("BULL", "corner radius r"),
     word("TAPER", "conical"),
+    word("DRILL", "drill, for CYCLE"),
 ];
 
 const CUTTER: &[Form] = &[

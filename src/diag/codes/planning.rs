@@ -142,6 +142,13 @@ pub const HOLDER_RUBS: Code = Code {
     page: include_str!("../../../docs/diagnostics/W0531.md"),
 };
 
+/// a drill is to mill.
+pub const DRILL_MILLS: Code = Code {
+    id: "E0516",
+    title: "a drill is to cut a contour",
+    page: include_str!("../../../docs/diagnostics/E0516.md"),
+};
+
 /// All codes of this area.
 pub const ALL: &[&Code] = &[
     &NO_TOOL,
@@ -159,6 +166,7 @@ pub const ALL: &[&Code] = &[
     &RAPID_THROUGH_STOCK,
     &MOVE_CUTS_PART,
     &INSERT_SPOILS,
+    &DRILL_MILLS,
     &ROUGHING_FIGURES,
     &ROUNDED_END,
     &NO_ROOM_FOR_LEAD,
