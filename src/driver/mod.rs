@@ -154,10 +154,10 @@ fn cl_stages(
     let failed = messages.has_errors();
     sink.append(messages);
     if failed {
-        return targets::check(options, files, &mut build.sources, sink);
+        return targets::check(options, &targets::Machines::default(), files, &mut build.sources, sink);
     }
     if !options.check_only {
-        let wanted = targets::wanted(options, &[], sink);
+        let wanted = targets::wanted(options, &targets::Machines::default(), sink);
         build.outputs = targets::make(&cl, &wanted, options, files, &mut build.sources, sink);
     }
     build.cl = Some(cl);
@@ -200,20 +200,27 @@ fn stages(build: &mut Build, file: FileId, files: &dyn FileProvider, options: &O
         build.ast = Some(tree.clone());
     }
     let evaluation = sema::Options { defines: options.defines.clone(), card_columns: options.card_columns };
-    build.ir = sema::analyse_tree(tree, &mut build.sources, files, &evaluation, sink);
-    back(build, files, options, sink);
+    match sema::analyse_tree(tree, &mut build.sources, files, &evaluation, sink) {
+        Ok(program) => {
+            build.ir = Some(program);
+            back(build, files, options, sink);
+        }
+        Err(broken) => {
+            let machines = targets::Machines::of(&broken);
+            targets::check(options, &machines, files, &mut build.sources, sink);
+        }
+    }
 }
 
-/// From the evaluated program on. What is wrong with the posts of the command line is said in any case.
+/// From the evaluated program on. What is wrong with the posts is said in any case.
 fn back(build: &mut Build, files: &dyn FileProvider, options: &Options, sink: &mut Sink) {
-    build.cl = build.ir.as_ref().and_then(|ir| plan::plan(ir, sink));
-    if options.check_only {
-        return;
-    }
-    let (Some(ir), Some(cl)) = (&build.ir, &build.cl) else {
-        return targets::check(options, files, &mut build.sources, sink);
+    let Some(ir) = &build.ir else { return };
+    build.cl = plan::plan(ir, sink);
+    let machines = targets::Machines::of(ir);
+    let Some(cl) = build.cl.as_ref().filter(|_| !options.check_only) else {
+        return targets::check(options, &machines, files, &mut build.sources, sink);
     };
-    let wanted = targets::wanted(options, &ir.machines, sink);
+    let wanted = targets::wanted(options, &machines, sink);
     build.outputs = targets::make(cl, &wanted, options, files, &mut build.sources, sink);
 }
 

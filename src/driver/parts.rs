@@ -5,7 +5,7 @@
 
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 
-use super::targets::{self, Ready};
+use super::targets::{self, Machines, Ready};
 use super::{Options, Output};
 use crate::arena::Handle;
 use crate::cl::{Cl, RecordKind};
@@ -57,13 +57,13 @@ pub(super) fn make(
 ) -> Vec<Output> {
     let survey = survey(file, sink);
     if sink.has_errors() {
-        targets::check(options, files, sources, sink);
+        targets::check(options, &Machines::default(), files, sources, sink);
         return Vec::new();
     }
-    let wanted = targets::wanted(options, &[], sink);
+    let wanted = targets::wanted(options, &Machines::default(), sink);
     let ready: Vec<Ready> = wanted
         .iter()
-        .filter_map(|w| targets::prepare(&survey.cl, w, options, files, sources, sink))
+        .filter_map(|w| targets::prepare(survey.cl.units, w, options, files, sources, sink))
         .collect();
     if sink.has_errors() {
         return Vec::new();

@@ -9,23 +9,39 @@ use crate::arena::Arena;
 use crate::cl::Cl;
 use crate::diag::codes::command as codes;
 use crate::diag::{Diagnostic, Label, Severity, Sink};
-use crate::ir::{Machine, Origin};
+use crate::ir::{Machine, Origin, Program};
 use crate::post::{self, Dialect};
-use crate::source::{FileProvider, SourceMap};
+use crate::source::{FileProvider, SourceMap, Span};
 use crate::target::{Capabilities, TargetProgram};
 use crate::units::LengthUnit;
 use crate::verify::{self, Emitted, Place, Proven};
 use crate::{lower, target};
 
+/// The machines that a program names, with the places of their statements.
+#[derive(Default)]
+pub(super) struct Machines<'a> {
+    units: LengthUnit,
+    named: Vec<(&'a Machine, Span)>,
+}
+
+impl<'a> Machines<'a> {
+    pub fn of(program: &'a Program) -> Machines<'a> {
+        let place = |m: &'a Machine| (m, program.origins[m.origin].span);
+        Machines { units: program.units, named: program.machines.iter().map(place).collect() }
+    }
+}
+
 /// A post that is wanted, and the `MACHIN` statement that describes its machine.
 pub(super) struct Wanted<'a> {
     name: String,
-    machine: Option<&'a Machine>,
+    machine: Option<(&'a Machine, Span)>,
 }
 
 /// The posts of the command line, or else those of the program.
-pub(super) fn wanted<'a>(options: &Options, machines: &'a [Machine], sink: &mut Sink) -> Vec<Wanted<'a>> {
-    let of_machine = |name: &str| machines.iter().find(|m| m.post.eq_ignore_ascii_case(&short_name(name)));
+pub(super) fn wanted<'a>(options: &Options, machines: &Machines<'a>, sink: &mut Sink) -> Vec<Wanted<'a>> {
+    let machines = &machines.named;
+    let of_machine =
+        |name: &str| machines.iter().find(|(m, _)| m.post.eq_ignore_ascii_case(&short_name(name))).copied();
     let default = options.default_post.iter().filter(|_| machines.is_empty() && options.posts.is_empty());
     let named: Vec<&String> = options.posts.iter().chain(default).collect();
     if !named.is_empty() {
@@ -36,15 +52,22 @@ pub(super) fn wanted<'a>(options: &Options, machines: &'a [Machine], sink: &mut 
             "name one with --post, or in the program with `MACHIN/ LINUXCNC`; `partwright check` needs none",
         ));
     }
-    machines.iter().map(|m| Wanted { name: m.post.clone(), machine: Some(m) }).collect()
+    machines.iter().map(|m| Wanted { name: m.0.post.clone(), machine: Some(*m) }).collect()
 }
 
-/// Reports what is wrong with posts that will not be used, because the program has errors.
-pub(super) fn check(options: &Options, files: &dyn FileProvider, sources: &mut SourceMap, sink: &mut Sink) {
-    for name in &options.posts {
-        if let Err(errors) = post::load_with(name, &options.post_set, files, sources) {
-            errors.into_iter().for_each(|e| sink.push(e));
-        }
+/// Reports what is wrong with posts that will not be used, because the program has errors or is only checked.
+pub(super) fn check(
+    options: &Options,
+    machines: &Machines<'_>,
+    files: &dyn FileProvider,
+    sources: &mut SourceMap,
+    sink: &mut Sink,
+) {
+    if options.posts.is_empty() && machines.named.is_empty() {
+        return;
+    }
+    for one in wanted(options, machines, sink) {
+        prepare(machines.units, &one, options, files, sources, sink);
     }
 }
 
@@ -84,7 +107,7 @@ pub(super) fn make(
     sink: &mut Sink,
 ) -> Vec<Output> {
     let ready: Vec<Ready> =
-        wanted.iter().filter_map(|w| prepare(cl, w, options, files, sources, sink)).collect();
+        wanted.iter().filter_map(|w| prepare(cl.units, w, options, files, sources, sink)).collect();
     if sink.has_errors() {
         return Vec::new();
     }
@@ -102,14 +125,14 @@ pub(super) fn make(
 }
 
 pub(super) fn prepare(
-    cl: &Cl,
+    units: LengthUnit,
     wanted: &Wanted<'_>,
     options: &Options,
     files: &dyn FileProvider,
     sources: &mut SourceMap,
     sink: &mut Sink,
 ) -> Option<Ready> {
-    let place = wanted.machine.map(|m| cl.origins[m.origin].span);
+    let place = wanted.machine.map(|(_, span)| span);
     let mut report = |mut diagnostic: Diagnostic| {
         if diagnostic.primary.is_none() {
             diagnostic.primary = place.map(|span| Label { span, message: String::new() });
@@ -123,7 +146,7 @@ pub(super) fn prepare(
             return None;
         }
     };
-    match dialect.capabilities(cl.units, wanted.machine) {
+    match dialect.capabilities(units, wanted.machine.map(|(m, _)| m)) {
         Ok(capabilities) => Some(Ready { dialect, capabilities }),
         Err(error) => {
             report(error);

@@ -70,24 +70,27 @@ pub fn analyse(
 ) -> Option<ir::Program> {
     let text = sources.file(main).text.clone();
     let tree = syntax::parse_columns(main, &text, options.card_columns, sink);
-    analyse_tree(tree, sources, files, options, sink)
+    analyse_tree(tree, sources, files, options, sink).ok()
 }
 
 /// As [`analyse`], of a main file that has been parsed.
+///
+/// # Errors
+/// After errors, the program as far as it was understood.
 pub fn analyse_tree(
     tree: ast::Program,
     sources: &mut SourceMap,
     files: &dyn FileProvider,
     options: &Options,
     sink: &mut Sink,
-) -> Option<ir::Program> {
+) -> Result<ir::Program, Box<ir::Program>> {
     let mut analyser = Analyser::new(tree.file, sources, files, options);
     analyser.main(tree);
     let Analyser { program, report, syntax, .. } = analyser;
     let failed = report.errors() > 0 || syntax.has_errors();
     sink.append(syntax);
     report.finish(sink);
-    (!failed && !sink.has_errors()).then_some(program)
+    if failed || sink.has_errors() { Err(Box::new(program)) } else { Ok(program) }
 }
 
 /// Why the rest of the program is not carried out.

@@ -152,7 +152,7 @@ impl Machine<'_> {
         now.z = z.map(|z| (z, incremental)).or(now.z);
         now.q = q.or(now.q);
         now.p = p.or(now.p);
-        let Some((level, bottom)) = self.levels(out) else { return None };
+        let (level, bottom) = self.levels(out)?;
         if !self.state.known[2] {
             out.fault("a drilling cycle from a height that is not known");
             return None;
