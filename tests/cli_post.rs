@@ -223,3 +223,48 @@ fn trace_writes_a_page_and_never_over_a_source() {
     assert_eq!(scratch.read("points.apt"), POINTS);
     assert_eq!(scratch.names(), ["broken.apt", "points.apt", "points.linuxcnc.html"]);
 }
+
+/// A work offset by number: the post, the number, the words of the start.
+const OFFSETS: &[(&str, &str, &str)] = &[
+    ("fanuc", "2", "G55"),
+    ("fanuc", "7", "G54.1 P1"),
+    ("mazak", "54", "G54.1 P48"),
+    ("mitsubishi", "8", "G54.1 P2"),
+    ("haas", "7", "G154 P1"),
+    ("haas", "105", "G154 P99"),
+    ("sinumerik", "5", "G505"),
+    ("sinumerik", "99", "G599"),
+    ("okuma", "12", "G15 H12"),
+    ("centroid", "18", "E18"),
+    ("linuxcnc", "9", "G59.3"),
+    ("grbl", "6", "G59"),
+    ("grblhal", "9", "G59.3"),
+    ("mach3", "6", "G59"),
+    ("heidenhain", "3", "Q339=+3"),
+];
+
+#[test]
+fn work_offsets_are_counted_as_the_control_counts_them() {
+    let scratch = Scratch::new("work-offsets");
+    for (post, number, words) in OFFSETS {
+        scratch.write("points.apt", &POINTS.replace("LOADTL", &format!("MACHIN/ {post}, WCS = {number}\nLOADTL")));
+        let built = scratch.run(&["build", "points.apt", "-o", "-"]);
+        let text = stdout(&built);
+        assert_eq!(code(&built), 0, "{post} {number}: {}", stderr(&built));
+        let is_word = |line: &str| format!(" {line} ").contains(&format!(" {words} "));
+        assert!(text.lines().any(is_word), "{post}: no {words} in\n{text}");
+    }
+    for (post, number, why) in [
+        ("fanuc", "55", "from 1 to 54"),
+        ("sinumerik", "100", "from 1 to 99"),
+        ("linuxcnc", "10", "from 1 to 9"),
+        ("grbl", "0", "from 1 to 6"),
+        ("marlin", "1", "does not have"),
+        ("apt-cl", "2", "does not have"),
+    ] {
+        scratch.write("points.apt", &POINTS.replace("LOADTL", &format!("MACHIN/ {post}, WCS = {number}\nLOADTL")));
+        let refused = scratch.run(&["build", "points.apt", "-o", "-"]);
+        assert_eq!(code(&refused), 1, "{post} {number}: {}", stdout(&refused));
+        assert!(stderr(&refused).contains(why), "{post} {number}: {}", stderr(&refused));
+    }
+}

@@ -48,6 +48,7 @@ pub(super) struct Carry {
     cycle: Option<Active>,
     exact: Option<Point3>,
     spinning: Option<Spindle>,
+    parked: bool,
 }
 
 /// Emits a chunk: the first one begins the program, the last one ends it.
@@ -93,6 +94,7 @@ impl Carry {
             cycle: None,
             exact: None,
             spinning: None,
+            parked: false,
         }
     }
 }
@@ -131,6 +133,8 @@ pub(super) struct Emitter<'a> {
     pub(super) exact: Option<Point3>,
     /// The spindle as last switched on.
     pub(super) spinning: Option<Spindle>,
+    /// Z stands at its upper end since the last tool change.
+    parked: bool,
 }
 
 impl<'a> Emitter<'a> {
@@ -164,6 +168,7 @@ impl<'a> Emitter<'a> {
             cycle: None,
             exact: None,
             spinning: None,
+            parked: false,
         };
         emitter.forget();
         emitter
@@ -180,6 +185,7 @@ impl<'a> Emitter<'a> {
         self.cycle = carry.cycle;
         self.exact = carry.exact;
         self.spinning = carry.spinning;
+        self.parked = carry.parked;
     }
 
     fn records(&mut self, fitted: &[Option<Arc<Fitted>>]) {
@@ -212,6 +218,7 @@ impl<'a> Emitter<'a> {
             cycle: self.cycle,
             exact: self.exact,
             spinning: self.spinning,
+            parked: self.parked,
         };
         (program, carry)
     }
@@ -304,6 +311,7 @@ impl<'a> Emitter<'a> {
             self.event(BlockKind::Coolant(self.coolant));
         }
         self.forget();
+        self.parked = self.capabilities.parks;
         self.exact = None;
         self.rpm = 0.0;
     }
@@ -430,12 +438,12 @@ impl<'a> Emitter<'a> {
         rotary::nearest_turn(self.at[3].unwrap_or(0), &self.capabilities.grid)
     }
 
-    /// Z first when it rises or is not known, last when it falls.
+    /// Z first when it rises or is not known, last when it falls or comes from its upper end.
     pub(super) fn rapid(&mut self, to: Position) {
         if self.capabilities.whole_points {
             return self.rapid_axes(to, axes::X | axes::Y | axes::Z | axes::ROTARY);
         }
-        let rises = self.at[2].is_none_or(|z| to.z > z);
+        let rises = self.at[2].map_or(!self.parked, |z| to.z > z);
         if rises {
             self.rapid_axes(to, axes::Z);
         }
@@ -443,6 +451,7 @@ impl<'a> Emitter<'a> {
         if !rises {
             self.rapid_axes(to, axes::Z);
         }
+        self.parked = false;
     }
 
     /// X, Y and the table. The table turns only while the cutter is on its X axis: elsewhere a move of Y and a

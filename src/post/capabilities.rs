@@ -32,6 +32,7 @@ impl Dialect {
         let options = self.options(machine);
         self.check_options(&options)?;
         self.check_dwell(&options)?;
+        self.check_groups(&options, unit)?;
         Ok(Capabilities {
             name: self.name.clone(),
             grid: self.grid(unit),
@@ -39,6 +40,7 @@ impl Dialect {
             planes: self.planes(),
             cycles: self.cycles(|_| true),
             dwelling_cycles: self.cycles(|cycle| cycle.dwell),
+            parks: spec.tool_change.parks,
             whole_points: spec.modal.whole_points,
             max_sweep: Angle::degrees(spec.arcs.max_sweep).rad(),
             full_circle: match spec.arcs.full_circle {
@@ -125,6 +127,21 @@ impl Dialect {
                 format!("the option `{key}` is {value:?}; options are printable ASCII on one line"),
             )),
         }
+    }
+
+    /// An option that picks the start of a modal group counts codes that there are.
+    fn check_groups(&self, options: &BTreeMap<String, String>, unit: LengthUnit) -> Result<(), Diagnostic> {
+        let Some(group) = self.spec.groups.values().find(|g| g.chosen(unit, options).is_none()) else {
+            return Ok(());
+        };
+        let (key, value) = (&group.option, Spec::option(options, &group.option).unwrap_or_default());
+        let most = group.codes.len() + group.more_count as usize;
+        let message = if group.start.of(unit).is_empty() {
+            format!("`{key} = {value}` asks for what {} does not have", self.title())
+        } else {
+            format!("{key} is a number from 1 to {most} for {}, not `{value}`", self.title())
+        };
+        Err(Diagnostic::global(&codes::post::MACHINE_OPTION, message))
     }
 
     /// A declared unit of dwells is one that is known.

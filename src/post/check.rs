@@ -1,6 +1,7 @@
 //! Checks of a resolved dialect that no single key can show.
 
 use super::dialect::{Dialect, FullCircleWords};
+use super::load::builtin_file;
 use super::pattern::{Item, Place};
 use super::template::Renderer;
 use super::tree;
@@ -21,6 +22,7 @@ pub fn check(dialect: &Dialect, templates: bool) -> Vec<Diagnostic> {
     check_safe_start(dialect, &mut errors);
     check_tool_change(dialect, &mut errors);
     check_rotary(dialect, &mut errors);
+    check_comments(dialect, &mut errors);
     if templates {
         check_templates(dialect, &mut errors);
     }
@@ -33,6 +35,11 @@ pub(super) fn at(dialect: &Dialect, path: &str, code: &'static Code, message: St
         Some(entry) => Diagnostic::new(code, entry.value, message),
         None => Diagnostic::global(code, message),
     }
+}
+
+/// Whether a file of the user says the value, and not a built-in post.
+pub(super) fn in_a_file(dialect: &Dialect, path: &str) -> bool {
+    tree::find(&dialect.tree, path).is_some_and(|entry| builtin_file(entry.value.file).is_none())
 }
 
 /// Every pattern with its place in the file and what it is for.
@@ -171,7 +178,13 @@ fn check_collision(dialect: &Dialect, items: &[String], path: &str, errors: &mut
         }
         if let Some((other, _)) = seen.iter().find(|(_, prefix)| *prefix == word.prefix) {
             let problem = format!("the words `{other}` and `{item}` are both spelled `{}`", word.prefix);
-            errors.push(at(dialect, path, &codes::post::BAD_PATTERN, problem));
+            let said = [format!("words.{name}.prefix"), format!("words.{other}.prefix"), path.to_owned()];
+            let place = said.iter().find(|p| in_a_file(dialect, p)).map_or(path, String::as_str);
+            let error = at(dialect, place, &codes::post::BAD_PATTERN, problem);
+            // One message, however many patterns hold both.
+            if !errors.iter().any(|e| e.message == error.message && e.primary == error.primary) {
+                errors.push(error);
+            }
         }
         seen.push((item, &word.prefix));
     }
@@ -285,6 +298,23 @@ fn check_rotary(dialect: &Dialect, errors: &mut Vec<Diagnostic>) {
         let message =
             format!("`rotary.letter` is \"{}\", not one letter of \"{}\"", rotary.letter, rotary.letters);
         errors.push(at(dialect, "rotary.letter", &codes::post::WRONG_VALUE, message));
+    }
+    let words = dialect.spec.patterns.line.iter().filter(|item| *item != "rotary");
+    let prefixes = words.filter_map(|item| Some((item, &dialect.spec.words.get(item)?.prefix)));
+    for (item, prefix) in prefixes.filter(|(_, p)| enabled && p.len() == 1 && rotary.letters.contains(p.as_str())) {
+        let message = format!("`rotary.letters` has `{prefix}`, which is the word `{item}`");
+        errors.push(at(dialect, "rotary.letters", &codes::post::WRONG_VALUE, message));
+    }
+}
+
+/// What stands for a character that a comment may not hold is one that it may; those that end a comment never are.
+fn check_comments(dialect: &Dialect, errors: &mut Vec<Diagnostic>) {
+    let comments = &dialect.spec.comments;
+    for (key, text) in [("allowed", &comments.allowed), ("replace", &comments.replace)] {
+        if let Some(c) = text.chars().find(|c| !comments.may_hold(*c)) {
+            let message = format!("{c:?} in `comments.{key}` could end a comment, or is no character of one");
+            errors.push(at(dialect, &format!("comments.{key}"), &codes::post::WRONG_VALUE, message));
+        }
     }
 }
 

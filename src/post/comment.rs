@@ -57,13 +57,17 @@ impl Comments {
         }
     }
 
+    /// Whether a comment may hold the character without ending there.
+    #[must_use]
+    pub fn may_hold(&self, c: char) -> bool {
+        c.is_ascii_alphanumeric()
+            || c == ' '
+            || (c.is_ascii_graphic() && c != '%' && !self.open.contains(c) && !self.close.contains(c))
+    }
+
     /// A delimiter, `%` or a control character is never allowed, whatever a post file says.
     fn is_allowed(&self, c: char) -> bool {
-        self.allowed.contains(c)
-            && c.is_ascii_graphic()
-            && c != '%'
-            && !self.open.contains(c)
-            && !self.close.contains(c)
+        self.allowed.contains(c) && self.may_hold(c)
     }
 
     fn is_active(&self, text: &str) -> bool {
@@ -152,7 +156,7 @@ mod tests {
 
     #[test]
     fn text_cannot_leave_its_comment() {
-        assert_eq!(rules().lines("a) G0 X0 (b\n%\r\0M30"), ["(a_ G0 X0 _b_M30)"]);
+        assert_eq!(rules().lines("a) G0 X0 (b\n%\r\0M30"), ["(a_ G0 X0 _b _ M30)"]);
     }
     #[test]
     fn active_words_are_disarmed_also_where_a_long_text_is_wrapped() {

@@ -171,7 +171,10 @@ impl<'a> Events<'a> {
             .safe_start
             .iter()
             .map(|line| {
-                let starts = line.iter().filter_map(|g| spec.groups.get(g)).map(|g| g.start.of(self.unit()));
+                let options = &self.program.capabilities.options;
+                let groups = line.iter().filter_map(|g| spec.groups.get(g));
+                // An option that counts too far has been refused with the capabilities.
+                let starts = groups.filter_map(|g| g.chosen(self.unit(), options));
                 let codes: Vec<String> = starts.filter(|code| !code.is_empty()).collect();
                 codes.join(separator)
             })

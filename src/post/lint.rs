@@ -121,9 +121,10 @@ impl Lint<'_> {
             return;
         }
         let spec = &self.dialect.spec;
-        let proof: BTreeSet<&str> =
-            spec.post.control_when.keys().filter_map(|when| Some(when.split_once('=')?.0.trim())).collect();
-        for name in spec.options.keys().filter(|name| !proof.contains(name.as_str())) {
+        let proof = spec.post.control_when.keys().filter_map(|when| Some(when.split_once('=')?.0.trim()));
+        let groups = spec.groups.values().map(|group| group.option.as_str());
+        let others: BTreeSet<&str> = proof.chain(groups).collect();
+        for name in spec.options.keys().filter(|name| !others.contains(name.as_str())) {
             let path = format!("options.{name}");
             if !read.contains(&path) && self.own(&path) {
                 self.unreachable(&path, format!("no template reads `{path}`"));
@@ -142,7 +143,9 @@ impl Lint<'_> {
         let by_direction = has("direction") && spec.codes.direction_cw != spec.codes.direction_ccw;
         if !by_motion && !by_direction && !by_axis {
             let message = "clockwise and counter-clockwise arcs are printed alike".to_owned();
-            self.inexpressible("patterns.arc", message);
+            let paths = ["codes.arc-cw", "codes.arc-ccw", "codes.direction-cw", "codes.direction-ccw"];
+            let place = paths.into_iter().find(|p| self.own(p)).unwrap_or("patterns.arc");
+            self.inexpressible(place, message);
         }
     }
 
@@ -206,8 +209,11 @@ impl Lint<'_> {
         let says_sense = spec.spindle.on.iter().any(|item| item == "code");
         if spec.spindle.clockwise == spec.spindle.counter_clockwise && says_sense {
             let message = format!("both senses of the spindle are `{}`", spec.spindle.clockwise);
-            self.alike("spindle.counter-clockwise", message);
+            let paths = ["spindle.counter-clockwise", "spindle.clockwise"];
+            let place = paths.into_iter().find(|p| self.own(p)).unwrap_or("spindle.counter-clockwise");
+            self.alike(place, message);
         }
+        self.switches();
         let mut owners: BTreeMap<&str, &str> = BTreeMap::new();
         for (group, rules) in &spec.groups {
             for code in &rules.codes {
@@ -217,6 +223,29 @@ impl Lint<'_> {
                 }
             }
         }
+    }
+}
+
+impl Lint<'_> {
+    /// Codes that switch, each of which must switch one thing only.
+    fn switches(&mut self) {
+        let spec = &self.dialect.spec;
+        let switches = [
+            ("spindle.clockwise", &spec.spindle.clockwise),
+            ("spindle.off", &spec.spindle.off),
+            ("coolant.flood", &spec.coolant.flood),
+            ("coolant.off", &spec.coolant.off),
+            ("stops.stop", &spec.stops.stop),
+            ("stops.optional", &spec.stops.optional),
+        ];
+        let mut alike = Vec::new();
+        for (i, (path, code)) in switches.iter().enumerate().filter(|(_, (_, code))| !code.is_empty()) {
+            for (other, _) in switches.iter().take(i).filter(|(_, c)| c == code) {
+                let place = if self.own(path) { path } else { other };
+                alike.push((*place, format!("`{other}` and `{path}` are both `{code}`")));
+            }
+        }
+        alike.into_iter().for_each(|(place, message)| self.alike(place, message));
     }
 }
 
@@ -235,12 +264,13 @@ fn unknown_variable(dialect: &Dialect, path: &str, name: &str, known: &[&str]) -
         format!("the template `{path}` has no variable `{name}`"),
     );
     let option = name.strip_prefix("options.");
-    let candidates: Vec<String> = match option {
-        Some(_) => dialect.spec.options.keys().map(|k| format!("options.{k}")).collect(),
-        None => known.iter().map(|k| (*k).to_owned()).collect(),
+    let near = match option {
+        Some(key) => did_you_mean(key, dialect.spec.options.keys().map(String::as_str)),
+        None => did_you_mean(name, known.iter().copied()),
     };
-    match (did_you_mean(name, candidates.iter().map(String::as_str)), option) {
-        (Some(near), _) => finding.help(format!("did you mean `{near}`?")),
+    match (near, option) {
+        (Some(near), Some(_)) => finding.help(format!("did you mean `options.{near}`?")),
+        (Some(near), None) => finding.help(format!("did you mean `{near}`?")),
         (None, Some(option)) => finding.help(format!("say `{option} = \"\u{2026}\"` in [options]")),
         (None, None) => finding.help(format!("its variables are {}", known.join(", "))),
     }

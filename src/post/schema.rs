@@ -215,6 +215,10 @@ const GROUP: &[Key] = &[
         Shape::TextByUnit,
         "the code every program starts with; empty: the control does not have the group",
     ),
+    key("option", Shape::Text, "the option whose number, from 1, picks another one of `codes` for the start"),
+    key("more", Shape::Text, "what stands before the number of further codes, which the option counts after `codes`"),
+    key("more-from", Shape::Integer(0, 65_535), "number of the first of them"),
+    key("more-count", Shape::Integer(0, 65_535), "how many there are"),
 ];
 const ARCS: &[Key] = &[
     key("enabled", Shape::Flag, "the control has circular interpolation"),
@@ -350,6 +354,11 @@ const LIMITS: &[Key] = &[
 ];
 const TOOL_CHANGE: &[Key] = &[
     key("order", Shape::TextList, "names of the blocks to print, in order"),
+    key(
+        "parks",
+        Shape::Flag,
+        "the change leaves Z at its upper end: the first rapid goes across before it goes down",
+    ),
     key(
         "with-first-z",
         Shape::Text,

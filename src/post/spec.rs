@@ -220,6 +220,35 @@ pub struct Group {
     #[serde(default)]
     pub codes: Vec<String>,
     pub start: ByUnit<String>,
+    #[serde(default)]
+    pub option: String,
+    #[serde(default)]
+    pub more: String,
+    #[serde(default)]
+    pub more_from: u32,
+    #[serde(default)]
+    pub more_count: u32,
+}
+
+impl Group {
+    /// The code that a program starts with: the one that the group's option counts to from 1, else `start`. `None` when
+    /// the control has none of that number.
+    #[must_use]
+    pub fn chosen(&self, unit: LengthUnit, options: &BTreeMap<String, String>) -> Option<String> {
+        let start = self.start.of(unit);
+        let Some(wanted) = Spec::option(options, &self.option).filter(|value| !value.is_empty()) else {
+            return Some(start);
+        };
+        let index = wanted.parse::<usize>().ok()?.checked_sub(1)?;
+        if start.is_empty() {
+            return None;
+        }
+        if let Some(code) = self.codes.get(index) {
+            return Some(code.clone());
+        }
+        let further = u32::try_from(index - self.codes.len()).ok().filter(|n| *n < self.more_count)?;
+        Some(format!("{}{}", self.more, self.more_from.checked_add(further)?))
+    }
 }
 
 /// Which end words a full circle carries.
@@ -397,6 +426,7 @@ pub struct Limits {
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 #[allow(missing_docs)]
 pub struct ToolChange {
+    pub parks: bool,
     pub with_first_z: String,
     pub order: Vec<String>,
     pub blocks: BTreeMap<String, String>,

@@ -88,6 +88,8 @@ pub struct TraceMove {
     pub tool: u32,
     /// Whether X, Y, Z were known before this move (a program may start anywhere).
     pub known: [bool; 3],
+    /// Z stands where a move to the reference point or in machine coordinates left it, and this move leaves it there.
+    pub parked: bool,
     /// Tool length is taken in (G43).
     pub length_offset: bool,
     /// Coolant.

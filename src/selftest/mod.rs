@@ -6,6 +6,7 @@
 
 use serde::Serialize;
 
+use crate::diag::{Diagnostic, codes};
 use crate::post::Dialect;
 
 mod judge;
@@ -89,6 +90,20 @@ pub enum RestsOn {
     Spelling,
     /// The message of the compiler.
     Message,
+}
+
+/// Rows that come out wrong, as errors of the post.
+#[must_use]
+pub fn findings(dialect: &Dialect) -> Vec<Diagnostic> {
+    let matrix = run(dialect);
+    let wrong = matrix.rows.iter().filter(|row| row.verdict == Verdict::Wrong);
+    wrong
+        .map(|row| {
+            let message = format!("the row `{}` of the selftest comes out wrong: {}", row.title, row.remark);
+            Diagnostic::global(&codes::tools::INEXPRESSIBLE, message)
+                .help(format!("`partwright post selftest {}` shows its lines", matrix.post))
+        })
+        .collect()
 }
 
 /// Tries every row.

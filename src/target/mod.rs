@@ -100,6 +100,8 @@ pub struct Capabilities {
     pub cycles: BTreeSet<CycleName>,
     /// Those of them that take a dwell, besides `Dwell` and `BoreDwell`.
     pub dwelling_cycles: BTreeSet<CycleName>,
+    /// Z stands at its upper end after a tool change, so that the first move may go across before it goes down.
+    pub parks: bool,
     /// Every move says X, Y and Z, and rapid moves go straight to their point.
     pub whole_points: bool,
     /// Largest sweep of one arc block, radians (2π when a full circle is fine).

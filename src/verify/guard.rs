@@ -68,6 +68,9 @@ impl<'a, 'r> Guards<'a, 'r> {
         if lowest >= guard.top - ACCURACY {
             return Vec::new();
         }
+        if placed.cut.parked {
+            return Vec::new();
+        }
         if !placed.cut.known[2] {
             return self.dive(placed).into_iter().collect();
         }

@@ -26,6 +26,7 @@ fn cut(path: TracePath) -> TraceMove {
         spindle: 1000.0,
         tool: 1,
         known: [true; 3],
+        parked: false,
         length_offset: true,
         coolant: crate::readback::Washing::default(),
         work_offset: 1,

@@ -3,8 +3,8 @@
 use super::super::args::post::PostCheckArgs;
 use super::super::messages::{self, Messages, to_stderr};
 use super::super::{Status, build};
-use crate::diag::Diagnostic;
-use crate::post;
+use crate::diag::{Diagnostic, Severity};
+use crate::{post, selftest};
 
 /// Checks posts one after the other; the worst decides how the run ends.
 pub fn check(args: &PostCheckArgs, messages: Messages) -> Result<Status, Diagnostic> {
@@ -15,6 +15,10 @@ pub fn check(args: &PostCheckArgs, messages: Messages) -> Result<Status, Diagnos
         let one = match super::load(name, &overrides, messages) {
             Ok((dialect, mut sources)) => {
                 let mut findings = post::lint(&dialect, &mut sources);
+                // A post that says what it does not mean is tried out only when it says something.
+                if findings.iter().all(|f| f.severity != Severity::Error) {
+                    findings.extend(selftest::findings(&dialect));
+                }
                 messages::deny(&mut findings, &args.deny);
                 messages.show(&findings, &sources);
                 if findings.is_empty() && messages.for_people() {

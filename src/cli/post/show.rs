@@ -26,7 +26,8 @@ pub fn show(args: &PostShowArgs, messages: Messages) -> Result<Status, Diagnosti
 /// Who the post is, as comments.
 fn head(dialect: &Dialect) -> String {
     format!(
-        "# {}: {}\n# inherits: {}\n# how sure: {} ({})\n# read back as: {}\n",
+        "# {}: {}\n# inherits: {}\n# how sure: {} ({})\n# read back as: {}\n\
+         # repeats: written out, without subprograms\n",
         dialect.name(),
         dialect.title(),
         dialect.lineage().join(" > "),

@@ -78,6 +78,7 @@ fn claims_that_words_cannot_express_are_errors() {
 #[test]
 fn codes_with_two_meanings_are_errors() {
     assert_eq!(only("[spindle]\ncounter-clockwise = \"M3\""), "E0754 both senses of the spindle are `M3`");
+    assert_eq!(only("[coolant]\nflood = \"M5\""), "E0754 `spindle.off` and `coolant.flood` are both `M5`");
     assert_eq!(
         only("[groups.units]\ncodes = [\"G17\", \"G20\", \"G21\"]"),
         "E0754 `G17` is in two modal groups, `plane` and `units`"

@@ -335,6 +335,7 @@ impl<'a> Reader<'a> {
             spindle: self.direction * self.speed,
             tool: self.tool,
             known: [self.known; 3],
+            parked: false,
             length_offset: self.tool != 0,
             coolant: self.coolant,
             work_offset: 0,

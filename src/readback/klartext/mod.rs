@@ -48,6 +48,7 @@ struct State {
     /// X, Y, Z in mm, the rotary axis in degrees.
     position: [f64; 4],
     known: [bool; 4],
+    parked: bool,
     inch: bool,
     pole: Option<[f64; 2]>,
     /// mm/min, or mm/rev under M136.
@@ -73,6 +74,7 @@ impl<'a> Reader<'a> {
         let state = State {
             position: [0.0; 4],
             known: [false; 4],
+            parked: false,
             inch: false,
             pole: None,
             feed: None,

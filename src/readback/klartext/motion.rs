@@ -33,6 +33,7 @@ impl Reader<'_> {
             for (known, axis) in self.state.known.iter_mut().zip(&asked.axes) {
                 *known &= axis.is_none();
             }
+            self.state.parked |= asked.axes[2].is_some();
             return;
         }
         if !asked.rapid && !self.feed_is_there(out) {
@@ -276,6 +277,7 @@ impl Reader<'_> {
         for axis in 0..4 {
             self.state.known[axis] |= asked.axes[axis].is_some();
         }
+        self.state.parked &= asked.axes[2].is_none();
     }
 
     /// Hands a move on and stands at its end.
@@ -299,6 +301,7 @@ impl Reader<'_> {
             spindle: state.direction * state.speed,
             tool: state.tool,
             known: [state.known[0] && table, state.known[1] && table, state.known[2]],
+            parked: state.parked && asked.axes[2].is_none(),
             length_offset: state.tool != 0,
             coolant: state.coolant,
             work_offset: state.work_offset,

@@ -237,17 +237,23 @@ impl<'a> Machine<'a> {
     /// The position in another work offset is not known; that in the same one stays.
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
     fn offset<S: Follow>(&mut self, block: &Block, plan: &Plan, used: &mut u32, out: &mut Out<'_, S>) {
+        let alone = self.rules.offset_word.filter(|l| plan.offset.is_none() && block.has(*l));
         let number = match plan.offset {
-            None => return,
-            Some(0) => {
-                let letters = [b'P', b'H', b'E'];
+            None if alone.is_none() => return,
+            None | Some(0) => {
+                let letters = alone.map_or([b'P', b'H'], |l| [l, l]);
                 let word = letters.into_iter().find_map(|l| block.get(l).map(|v| (l, v)));
-                let Some((letter, value)) =
-                    word.filter(|(_, v)| v.fract() == 0.0 && (1.0..=999.0).contains(v))
-                else {
+                let Some((letter, value)) = word else {
                     return out.fault("a work offset without its number");
                 };
                 *used |= bit(letter);
+                if value.fract() != 0.0 || !(1.0..=self.rules.most_offsets).contains(&value) {
+                    return out.fault(format!(
+                        "the work offset {}{value} is not one from 1 to {}",
+                        char::from(letter),
+                        self.rules.most_offsets
+                    ));
+                }
                 value as u16 + if letter == b'P' { 100 } else { 0 }
             }
             Some(number) => number,

@@ -305,6 +305,7 @@ impl Machine<'_> {
             spindle: self.spindle_speed(),
             tool: self.state.tool,
             known,
+            parked: self.state.parked && !target.moved[2],
             length_offset: self.state.length,
             coolant: self.state.coolant,
             work_offset: self.state.work_offset,
@@ -350,6 +351,7 @@ impl Machine<'_> {
         for axis in 0..4 {
             self.state.known[axis] |= target.moved[axis];
         }
+        self.state.parked &= !target.moved[2];
     }
 
     /// G53: a move in machine coordinates leaves the part's frame.
@@ -385,6 +387,7 @@ impl Machine<'_> {
         for axis in 0..4 {
             self.state.known[axis] &= !target.moved[axis];
         }
+        self.state.parked |= target.moved[2];
     }
 
     /// The working plane, which a program must have chosen.

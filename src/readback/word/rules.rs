@@ -184,6 +184,10 @@ pub(in crate::readback) struct Rules {
     pub length_needs_h: bool,
     /// Work offsets are selected by the program, so that moving without one leaves it to what was in force.
     pub work_offset: bool,
+    /// A word that selects a work offset by itself.
+    pub offset_word: Option<u8>,
+    /// Largest number of further work offsets.
+    pub most_offsets: f64,
     /// G28 must name an axis.
     pub reference_needs_axis: bool,
     /// The control starts with G0 in force; otherwise no motion code is.

@@ -39,6 +39,8 @@ pub(in crate::readback) struct State {
     pub position: [f64; 4],
     /// Which of them are known.
     pub known: [bool; 4],
+    /// Z has not moved since it went to the reference point or in machine coordinates.
+    pub parked: bool,
     pub motion: Mode,
     pub plane: Plane,
     pub plane_stated: bool,
@@ -74,6 +76,7 @@ impl State {
         State {
             position: [0.0; 4],
             known: [false; 4],
+            parked: false,
             motion: if rules.starts_at_rapid { Mode::Rapid } else { Mode::None },
             plane: Plane::Xy,
             plane_stated: false,

@@ -12,6 +12,8 @@ pub(super) const RULES: Rules = Rules {
     comment_character: |c| (b' '..0x7f).contains(&c),
     whole_numbers: b"NOTDHSLM",
     unpointed: Unpointed::Setting,
+    offset_word: Some(b'E'),
+    most_offsets: 18.0,
     g,
     dwell: &[(b'P', Dwell::Seconds)],
     cycles: Some(&CYCLES),

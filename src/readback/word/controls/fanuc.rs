@@ -38,6 +38,8 @@ pub(in crate::readback::word) const RULES: Rules = Rules {
     length_by_d: false,
     length_needs_h: true,
     work_offset: true,
+    offset_word: None,
+    most_offsets: 48.0,
     reference_needs_axis: true,
     starts_at_rapid: false,
     repeat_motion: false,

@@ -37,6 +37,8 @@ pub(super) const RULES: Rules = Rules {
     length_by_d: false,
     length_needs_h: false,
     work_offset: true,
+    offset_word: None,
+    most_offsets: 1.0,
     reference_needs_axis: false,
     starts_at_rapid: true,
     repeat_motion: false,

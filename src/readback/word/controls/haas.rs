@@ -8,6 +8,7 @@ use super::fanuc;
 pub(super) const RULES: Rules = Rules {
     name: "haas",
     whole_numbers: b"NOTDHSLM",
+    most_offsets: 99.0,
     largest_t: 200.0,
     largest_inverse: 9999.0,
     g,

@@ -47,6 +47,8 @@ pub(super) const RULES: Rules = Rules {
     length_by_d: false,
     length_needs_h: false,
     work_offset: true,
+    offset_word: None,
+    most_offsets: 48.0,
     reference_needs_axis: false,
     starts_at_rapid: false,
     repeat_motion: false,

@@ -12,6 +12,7 @@ pub(super) const RULES: Rules = Rules {
     unpointed: Unpointed::Setting,
     largest_n: 99_999.0,
     most_m: 8,
+    most_offsets: 100.0,
     g,
     m,
     dwell: &[(b'F', Dwell::Seconds)],

@@ -141,3 +141,35 @@ fn half_circles_by_radius_are_not_trusted() {
     says("fanuc", &fanuc("G2 X0. Y0. R5."), "nearly half a turn");
     assert!(!said("linuxcnc", &linuxcnc("G2 X0 Y0 R5")).iter().any(|m| m.contains("half a turn")));
 }
+
+#[test]
+fn further_work_offsets() {
+    let selected = |control: &str, text: &str| {
+        let last = moves(trace(control, text)).pop().map(|m| m.work_offset);
+        (last, said(control, text))
+    };
+    for (control, code, number) in [
+        ("fanuc", "G54.1 P48", 148),
+        ("haas", "G154 P99", 199),
+        ("centroid", "E18", 18),
+        ("centroid", "G55", 2),
+    ] {
+        let text = fanuc(&format!("{code}\nG0 X1. Y1. Z5.")).replace("G64 ", "");
+        let (offset, complaints) = selected(control, &text);
+        assert_eq!(offset, Some(number), "{control} {code}: {complaints:?}");
+    }
+    says("fanuc", &fanuc("G54.1 P49"), "not one from 1 to 48");
+    says("haas", &fanuc("G154 P100"), "not one from 1 to 99");
+    says("centroid", &fanuc("E19"), "not one from 1 to 18");
+    says("fanuc", &fanuc("G54.1"), "without its number");
+}
+
+#[test]
+fn moves_across_from_the_upper_end_of_z_are_told_from_those_at_an_unknown_height() {
+    let first = |body: &str| moves(trace("fanuc", &fanuc(body))).pop().expect("a move");
+    let parked = first("G91 G28 Z0.\nG90 G0 X5.");
+    assert!(parked.parked && !parked.known[2]);
+    assert!(!first("G91 G28 X0.\nG90 G0 Y5.").parked);
+    assert!(!first("G91 G28 Z0.\nG90 G0 Z5.").parked);
+    assert!(!first("G91 G28 Z0.\nG90 G0 Z5.\nX5.").parked);
+}
