@@ -260,7 +260,7 @@ fn work_offsets_are_counted_as_the_control_counts_them() {
         ("linuxcnc", "10", "from 1 to 9"),
         ("grbl", "0", "from 1 to 6"),
         ("marlin", "1", "does not have"),
-        ("apt-cl", "2", "does not have"),
+        ("'apt-cl'", "2", "does not have"),
     ] {
         scratch.write("points.apt", &POINTS.replace("LOADTL", &format!("MACHIN/ {post}, WCS = {number}\nLOADTL")));
         let refused = scratch.run(&["build", "points.apt", "-o", "-"]);

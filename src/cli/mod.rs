@@ -55,12 +55,18 @@ impl From<Status> for ExitCode {
 /// Runs the command line of this process.
 #[must_use]
 pub fn run() -> ExitCode {
-    std::panic::set_hook(Box::new(|info| messages::to_stderr(&fault(info))));
-    let status = std::panic::catch_unwind(|| match Cli::try_parse() {
+    let status = guarded(|| match Cli::try_parse() {
         Ok(cli) => dispatch(&cli),
         Err(error) => usage(&error),
     });
-    status.unwrap_or(Status::Fault).into()
+    status.into()
+}
+
+/// How `work` ends; when it panics, [`Status::Fault`], with a request to report it on standard error.
+#[must_use]
+pub fn guarded(work: impl FnOnce() -> Status + std::panic::UnwindSafe) -> Status {
+    std::panic::set_hook(Box::new(|info| messages::to_stderr(&fault(info))));
+    std::panic::catch_unwind(work).unwrap_or(Status::Fault)
 }
 
 /// The message for a panic.
