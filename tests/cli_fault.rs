@@ -15,7 +15,8 @@ const FAILS: &str = "PARTWRIGHT_TEST_FAULT";
 fn a_process_that_fails() {
     if std::env::var_os(FAILS).is_some() {
         let empty: Vec<u32> = Vec::new();
-        let status = guarded(|| if empty[std::hint::black_box(3)] == 0 { Status::Done } else { Status::Errors });
+        let status =
+            guarded(|| if empty[std::hint::black_box(3)] == 0 { Status::Done } else { Status::Errors });
         std::process::exit(status as i32);
     }
 }
@@ -28,7 +29,9 @@ fn a_fault_of_our_own_is_said_so_and_ends_with_101() {
     let ended = child.output().expect("the test runs");
     let said = String::from_utf8_lossy(&ended.stderr);
     assert_eq!(ended.status.code(), Some(101), "{said}");
-    for part in ["this is a fault of partwright, not of your program", "index out of bounds", "Please report it"] {
+    for part in
+        ["this is a fault of partwright, not of your program", "index out of bounds", "Please report it"]
+    {
         assert!(said.contains(part), "no `{part}` in {said}");
     }
     assert!(!said.contains("RUST_BACKTRACE"), "{said}");

@@ -92,6 +92,47 @@ fn check_finds_what_is_wrong_and_says_where() {
 }
 
 #[test]
+fn z_goes_up_for_a_tool_change_where_the_machine_says_how_far() {
+    let scratch = Scratch::new("post-retract");
+    for (post, height) in [("LINUXCNC", "0"), ("MACH3", "-1.5"), ("CENTROID", "'0.'"), ("OKUMA", "'300.'")] {
+        let machine = format!("MACHIN/ {post}, RETRACT = {height}\nLOADTL");
+        scratch.write("points.apt", &POINTS.replace("LOADTL", &machine));
+        let built = scratch.run(&["build", "points.apt", "-o", "-"]);
+        assert_eq!(code(&built), 0, "{post}: {}", stderr(&built));
+        let up = format!("G0 Z{}", height.trim_matches('\''));
+        let text = stdout(&built);
+        let lines: Vec<usize> =
+            text.lines().enumerate().filter(|(_, l)| l.ends_with(&up)).map(|(i, _)| i).collect();
+        let change = text.lines().position(|l| l.starts_with("T1 M6")).expect("a tool change");
+        assert!(lines.iter().any(|l| *l < change) && lines.iter().any(|l| *l > change), "{post}:\n{text}");
+    }
+}
+
+/// Posts that look right and whose control would do something else, or nothing: each with the row that shows it.
+const UNTRUE: &[(&str, &str)] = &[
+    ("inherits = \"grbl\"\n[arcs]\nfull-circle = \"bare\"\n", "`full circle`"),
+    ("inherits = \"fanuc\"\n[dwell]\nunit = \"s\"\ndecimals = 3\n", "`0.5 s in a block of its own`"),
+    ("inherits = \"haas\"\n[numbers]\npoint = \"digit\"\n", "`full circle`"),
+    (
+        "inherits = \"fanuc\"\n[templates]\nheader = \"{% for i in range(9999999) %}{% endfor %}\"\n",
+        "`end of program`",
+    ),
+];
+
+#[test]
+fn check_tries_the_post_out() {
+    let scratch = Scratch::new("post-check-tries");
+    for (post, row) in UNTRUE {
+        scratch.write("mill.post.toml", post);
+        let checked = scratch.run(&["post", "check", "mill.post.toml"]);
+        assert_eq!(code(&checked), 1, "{post}");
+        let said = stderr(&checked);
+        assert!(said.contains(&format!("the row {row} of the selftest comes out wrong")), "{post}: {said}");
+        assert!(said.contains("E0752") && said.contains("post selftest mill.post.toml"), "{said}");
+    }
+}
+
+#[test]
 fn a_new_post_passes_its_check_and_builds() {
     let scratch = Scratch::new("post-new");
     scratch.write("points.apt", POINTS);
@@ -247,7 +288,10 @@ const OFFSETS: &[(&str, &str, &str)] = &[
 fn work_offsets_are_counted_as_the_control_counts_them() {
     let scratch = Scratch::new("work-offsets");
     for (post, number, words) in OFFSETS {
-        scratch.write("points.apt", &POINTS.replace("LOADTL", &format!("MACHIN/ {post}, WCS = {number}\nLOADTL")));
+        scratch.write(
+            "points.apt",
+            &POINTS.replace("LOADTL", &format!("MACHIN/ {post}, WCS = {number}\nLOADTL")),
+        );
         let built = scratch.run(&["build", "points.apt", "-o", "-"]);
         let text = stdout(&built);
         assert_eq!(code(&built), 0, "{post} {number}: {}", stderr(&built));
@@ -262,7 +306,10 @@ fn work_offsets_are_counted_as_the_control_counts_them() {
         ("marlin", "1", "does not have"),
         ("'apt-cl'", "2", "does not have"),
     ] {
-        scratch.write("points.apt", &POINTS.replace("LOADTL", &format!("MACHIN/ {post}, WCS = {number}\nLOADTL")));
+        scratch.write(
+            "points.apt",
+            &POINTS.replace("LOADTL", &format!("MACHIN/ {post}, WCS = {number}\nLOADTL")),
+        );
         let refused = scratch.run(&["build", "points.apt", "-o", "-"]);
         assert_eq!(code(&refused), 1, "{post} {number}: {}", stdout(&refused));
         assert!(stderr(&refused).contains(why), "{post} {number}: {}", stderr(&refused));

@@ -175,17 +175,26 @@ impl Emitter<'_> {
 
     /// The moves of a cycle that the control does not have.
     fn expand(&mut self, cycle: &Cycle, hole: Hole, feed: FeedWord) {
-        let name = cycle.kind.name().text();
-        if matches!(cycle.kind, CycleKind::Tap { .. } | CycleKind::BoreOrient { .. }) {
-            let message =
-                format!("`{}` has no cycle `{name}`, and no moves can stand for it", self.capabilities.name);
-            return self.complain(&codes::lowering::NO_CYCLE, message);
-        }
-        let message =
-            format!("`{}` has no cycle `{name}`: its moves are written out", self.capabilities.name);
+        let (name, post) = (cycle.kind.name().text(), &self.capabilities.name);
+        let refused = matches!(cycle.kind, CycleKind::Tap { .. } | CycleKind::BoreOrient { .. });
+        let (code, message) = if refused {
+            (
+                &codes::lowering::NO_CYCLE,
+                format!("`{post}` has no cycle `{name}`, and no moves can stand for it"),
+            )
+        } else {
+            (
+                &codes::lowering::CYCLE_EXPANDED,
+                format!("`{post}` has no cycle `{name}`: its moves are written out"),
+            )
+        };
+        // Once for all holes of the cycle.
         if let Some(active) = self.cycle.as_mut().filter(|a| !a.told) {
             active.told = true;
-            self.complain(&codes::lowering::CYCLE_EXPANDED, message);
+            self.complain(code, message);
+        }
+        if refused {
+            return;
         }
         self.lift(cycle, &hole);
         let turn = self.cartesian_turn();

@@ -301,7 +301,9 @@ fn check_rotary(dialect: &Dialect, errors: &mut Vec<Diagnostic>) {
     }
     let words = dialect.spec.patterns.line.iter().filter(|item| *item != "rotary");
     let prefixes = words.filter_map(|item| Some((item, &dialect.spec.words.get(item)?.prefix)));
-    for (item, prefix) in prefixes.filter(|(_, p)| enabled && p.len() == 1 && rotary.letters.contains(p.as_str())) {
+    for (item, prefix) in
+        prefixes.filter(|(_, p)| enabled && p.len() == 1 && rotary.letters.contains(p.as_str()))
+    {
         let message = format!("`rotary.letters` has `{prefix}`, which is the word `{item}`");
         errors.push(at(dialect, "rotary.letters", &codes::post::WRONG_VALUE, message));
     }

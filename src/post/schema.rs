@@ -216,7 +216,11 @@ const GROUP: &[Key] = &[
         "the code every program starts with; empty: the control does not have the group",
     ),
     key("option", Shape::Text, "the option whose number, from 1, picks another one of `codes` for the start"),
-    key("more", Shape::Text, "what stands before the number of further codes, which the option counts after `codes`"),
+    key(
+        "more",
+        Shape::Text,
+        "what stands before the number of further codes, which the option counts after `codes`",
+    ),
     key("more-from", Shape::Integer(0, 65_535), "number of the first of them"),
     key("more-count", Shape::Integer(0, 65_535), "how many there are"),
 ];

@@ -85,6 +85,42 @@ fn codes_with_two_meanings_are_errors() {
     );
 }
 
+/// What loading says of a file that inherits from LinuxCNC: message, and the line it points at.
+fn refused(text: &str) -> Vec<(String, usize)> {
+    let text = format!("inherits = \"linuxcnc\"\n{text}");
+    let files = MemoryFiles([("my.post.toml".to_owned(), text)].into());
+    let mut sources = SourceMap::default();
+    let errors = load("my.post.toml", &files, &mut sources).err().unwrap_or_default();
+    let line = |d: &crate::diag::Diagnostic| {
+        d.primary.as_ref().map_or(0, |p| sources.file(p.span.file).line_column(p.span.start).0)
+    };
+    errors.iter().map(|d| (d.message.clone(), line(d))).collect()
+}
+
+#[test]
+fn words_alike_are_said_once_and_where_the_file_says_them() {
+    let alike = "the words `x` and `y` are both spelled `Y`".to_owned();
+    assert_eq!(refused("[words.x]\nprefix = \"Y\""), [(alike, 3)]);
+}
+
+#[test]
+fn comments_cannot_be_given_what_ends_them() {
+    for text in ["replace = \")\"", "allowed = \".(\"", "allowed = \"%\"", "replace = \"\\n\""] {
+        let found = refused(&format!("[comments]\n{text}"));
+        assert!(
+            matches!(found.as_slice(), [(m, 3)] if m.contains("could end a comment")),
+            "{text}: {found:?}"
+        );
+    }
+    assert_eq!(refused("[comments]\nreplace = \" \"\nallowed = \"+#\""), []);
+}
+
+#[test]
+fn a_rotary_axis_cannot_be_called_like_a_linear_one() {
+    let found = refused("[rotary]\nletter = \"X\"\nletters = \"XC\"");
+    assert_eq!(found, [("`rotary.letters` has `X`, which is the word `x`".to_owned(), 4)]);
+}
+
 #[test]
 fn every_variable_of_the_table_exists_where_the_table_says_and_is_documented() {
     let guide = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/posts.md")).unwrap();
