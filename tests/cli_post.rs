@@ -96,7 +96,7 @@ fn z_goes_up_for_a_tool_change_where_the_machine_says_how_far() {
     let scratch = Scratch::new("post-retract");
     for (post, height) in [("LINUXCNC", "0"), ("MACH3", "-1.5"), ("CENTROID", "'0.'"), ("OKUMA", "'300.'")] {
         let machine = format!("MACHIN/ {post}, RETRACT = {height}\nLOADTL");
-        scratch.write("points.apt", &POINTS.replace("LOADTL", &machine));
+        scratch.write("points.apt", POINTS.replace("LOADTL", &machine));
         let built = scratch.run(&["build", "points.apt", "-o", "-"]);
         assert_eq!(code(&built), 0, "{post}: {}", stderr(&built));
         let up = format!("G0 Z{}", height.trim_matches('\''));
@@ -290,7 +290,7 @@ fn work_offsets_are_counted_as_the_control_counts_them() {
     for (post, number, words) in OFFSETS {
         scratch.write(
             "points.apt",
-            &POINTS.replace("LOADTL", &format!("MACHIN/ {post}, WCS = {number}\nLOADTL")),
+            POINTS.replace("LOADTL", &format!("MACHIN/ {post}, WCS = {number}\nLOADTL")),
         );
         let built = scratch.run(&["build", "points.apt", "-o", "-"]);
         let text = stdout(&built);
@@ -308,7 +308,7 @@ fn work_offsets_are_counted_as_the_control_counts_them() {
     ] {
         scratch.write(
             "points.apt",
-            &POINTS.replace("LOADTL", &format!("MACHIN/ {post}, WCS = {number}\nLOADTL")),
+            POINTS.replace("LOADTL", &format!("MACHIN/ {post}, WCS = {number}\nLOADTL")),
         );
         let refused = scratch.run(&["build", "points.apt", "-o", "-"]);
         assert_eq!(code(&refused), 1, "{post} {number}: {}", stdout(&refused));

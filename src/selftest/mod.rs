@@ -92,16 +92,16 @@ pub enum RestsOn {
     Message,
 }
 
-/// Rows that come out wrong, as errors of the post.
+/// Rows that come out wrong, as errors of the post that was asked for as `name`.
 #[must_use]
-pub fn findings(dialect: &Dialect) -> Vec<Diagnostic> {
+pub fn findings(dialect: &Dialect, name: &str) -> Vec<Diagnostic> {
     let matrix = run(dialect);
     let wrong = matrix.rows.iter().filter(|row| row.verdict == Verdict::Wrong);
     wrong
         .map(|row| {
             let message = format!("the row `{}` of the selftest comes out wrong: {}", row.title, row.remark);
             Diagnostic::global(&codes::tools::INEXPRESSIBLE, message)
-                .help(format!("`partwright post selftest {}` shows its lines", matrix.post))
+                .help(format!("`partwright post selftest {name}` shows its lines"))
         })
         .collect()
 }
