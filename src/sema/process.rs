@@ -8,7 +8,7 @@ use crate::diag::{Diagnostic, did_you_mean};
 use crate::ir::{self, Band, Coolant, Feed, Spindle, StepKind, Tool};
 use crate::math::TAU;
 use crate::source::Span;
-use crate::syntax::ast::{ArgKind, Command, Expr, ExprKind, Name};
+use crate::syntax::ast::{ArgKind, Command, Expr, ExprKind, Name, UnaryOp};
 use crate::units::{Dim, LengthUnit, Quantity, number, tidy};
 
 use super::Analyser;
@@ -191,7 +191,12 @@ impl Analyser<'_> {
                 let letter = machine.rotary.and_then(|r| r.letter);
                 machine.rotary = Some(ir::Rotary { letter, reversed: true });
             } else {
-                machine.options.push((key.to_uppercase(), option_value(&arg.kind)));
+                let value = option_value(&arg.kind);
+                if let (None, ArgKind::Named { value, .. }) = (&value, &arg.kind) {
+                    let message = "the value of an option is a number, a word or a text in quotes";
+                    self.report(Diagnostic::new(&codes::WRONG_KIND, value.span, message));
+                }
+                machine.options.push((key.to_uppercase(), value));
             }
         }
         self.program.machines.push(machine);
@@ -461,7 +466,13 @@ fn plain(kind: &ArgKind) -> Option<String> {
 
 fn option_value(kind: &ArgKind) -> Option<String> {
     match kind {
-        ArgKind::Named { value, .. } => plain(&ArgKind::Expr(value.clone())),
+        ArgKind::Named { value, .. } => match &value.kind {
+            ExprKind::Unary { op: UnaryOp::Minus, operand, .. } => match operand.kind {
+                ExprKind::Number { value, unit: None } => Some(format!("-{value}")),
+                _ => None,
+            },
+            kind => plain(&ArgKind::Expr(Expr { kind: kind.clone(), span: value.span })),
+        },
         _ => None,
     }
 }
