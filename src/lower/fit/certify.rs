@@ -1,11 +1,11 @@
 //! Certified deviation of a chain from its curve: measured on the printed vertices, corners included.
 //!
-//! At every station's normal and at the extremes in between the distance of the link is measured, unless a corner
-//! hides the station there: on the inner side of a corner normals end at its bisector, and that is measured instead.
-//! A station looks at the few corners next to it only.
+//! At every station's normal and at the extremes in between the distance of the link is measured. Beside corners, where
+//! normals meet, it is measured from the link ([`super::near`]), and along the bisector on the inner side of each corner.
 
 use super::Tube;
 use super::measure::{Path, Range, Sample, between, foot};
+use super::near::Near;
 use super::search::Vertex;
 use super::tube::{Corner, Plane, Station, Stations};
 use crate::geom::Point2;
@@ -14,10 +14,6 @@ use crate::math;
 
 /// Accuracy of the certified deviation, mm.
 pub const ACCURACY: f64 = 1e-8;
-/// Corners ahead and behind that may be nearer to a point than its station.
-const NEIGHBOURS: usize = 16;
-/// A corner hides stations no farther away than this many times the deviation there; what is not hidden is measured.
-const HIDING: f64 = 2048.0;
 
 /// What a chain is measured against.
 #[derive(Debug, Clone, Copy)]
@@ -32,14 +28,22 @@ impl Certificate<'_> {
     /// Smallest and largest deviation of the chain, on its printed vertices.
     pub fn chain(&self, vertices: &[Vertex]) -> Range {
         let mut range = Range::EMPTY;
-        let feet: Vec<Foot> = vertices.iter().map(|v| self.foot(v)).collect();
-        for (pair, feet) in vertices.windows(2).zip(feet.windows(2)) {
-            self.link(pair, feet, &mut range);
+        let near = Near { tube: self.tube, stations: self.stations };
+        for pair in vertices.windows(2) {
+            let stations = [pair[0].next.saturating_sub(1), pair[1].next.saturating_sub(1)];
+            if near.corners(stations[0], pair[1].next) {
+                let path = self.path(&pair[0], &pair[1]);
+                let ends = [0, 1].map(|k| near.vertex(self.part(&pair[k]), stations[k]));
+                near.link(&path, ends, &mut range);
+                self.bisectors(&path, pair, &mut range);
+            } else {
+                self.link(pair, [self.foot(&pair[0]), self.foot(&pair[1])], &mut range);
+            }
         }
         range
     }
 
-    fn link(&self, pair: &[Vertex], feet: &[Foot], range: &mut Range) {
+    fn link(&self, pair: &[Vertex], feet: [Foot; 2], range: &mut Range) {
         let path = self.path(&pair[0], &pair[1]);
         range.add(feet[0].d);
         range.add(feet[1].d);
@@ -47,7 +51,7 @@ impl Certificate<'_> {
         let mut before = feet[0].u.and_then(|u| self.sample(&path, u, feet[0].span));
         for i in pair[0].next..pair[1].next {
             let station = &self.stations.stations[i % n];
-            let Some(sample) = self.crossing(&path, i % n) else {
+            let Some(sample) = Sample::new(&path, station.u, &station.frenet) else {
                 before = None;
                 continue;
             };
@@ -64,7 +68,6 @@ impl Certificate<'_> {
         {
             between(self.tube.curve, feet[1].span, &path, (a, b), ACCURACY, range);
         }
-        self.bisectors(&path, pair, range);
     }
 
     /// Extremes between two samples, the second at station `i`.
@@ -97,32 +100,6 @@ impl Certificate<'_> {
 
     fn sample(&self, path: &Path, u: f64, span: usize) -> Option<Sample> {
         Sample::new(path, u, &self.tube.curve.at_in(span, u))
-    }
-
-    /// Where the normal of station `i` meets the path, unless another part of the curve is nearer there (inside a
-    /// corner).
-    fn crossing(&self, path: &Path, i: usize) -> Option<Sample> {
-        let station = &self.stations.stations[i];
-        let sample = Sample::new(path, station.u, &station.frenet)?;
-        let hidden = |ahead: bool| {
-            let farthest = HIDING * sample.d.abs();
-            let near = |c: &&Corner| (c.point - station.frenet.p).norm() <= farthest;
-            self.corners_from(i, ahead).take_while(near).any(|c| hides(c, station, &sample))
-        };
-        (!hidden(false) && !hidden(true)).then_some(sample)
-    }
-
-    /// The corners from station `i` on, ahead or behind, nearest first; a fan's own corner lies ahead.
-    fn corners_from(&self, i: usize, ahead: bool) -> impl Iterator<Item = &Corner> {
-        let corners = &self.stations.corners;
-        let closed = self.stations.closed;
-        let m = corners.len();
-        let next = corners.partition_point(|c| c.last <= i);
-        (0..m.min(NEIGHBOURS)).map_while(move |j| {
-            let at = if ahead { next + j } else { next + m - 1 - j };
-            let lap = if ahead { at >= m } else { at < m };
-            (closed || !lap).then(|| &corners[at % m])
-        })
     }
 
     /// Distance from corners to the link, along their bisectors, on the inner side.
@@ -171,21 +148,7 @@ impl Certificate<'_> {
         let n = self.stations.stations.len();
         let p = self.part(v);
         let before = &self.stations.stations[(v.next + n - 1) % n];
-        let mut best = self.foot_on(p, before.span, before.u);
-        let reach = 4.0 * self.tube.left.max(self.tube.right);
-        for ahead in [false, true] {
-            let near = |c: &&Corner| (p - c.point).norm() <= reach;
-            for corner in self.corners_from(v.next % n, ahead).take_while(near) {
-                let inner = (p - corner.point).dot(&corner.bisector());
-                let d = (p - corner.point).norm() * inner.signum();
-                for end in [corner.first, corner.last] {
-                    let s = &self.stations.stations[end % n];
-                    best = nearer(best, self.foot_on(p, s.span, s.u));
-                }
-                best = nearer(best, Some(Foot { u: None, span: before.span, d }));
-            }
-        }
-        best.unwrap_or_else(|| {
+        self.foot_on(p, before.span, before.u).unwrap_or_else(|| {
             // beyond the end of an open curve: on the normal of that end
             let after = &self.stations.stations[v.next % n];
             let off = |s: &Station| (p - s.frenet.p).dot(&s.frenet.t).abs();
@@ -204,28 +167,9 @@ impl Certificate<'_> {
 /// The foot of a vertex on the curve.
 #[derive(Debug, Clone, Copy)]
 struct Foot {
-    /// Parameter, unless a corner is nearest.
+    /// Parameter, unless it lies beyond an end.
     u: Option<f64>,
     span: usize,
     /// Signed distance, mm.
     d: f64,
-}
-
-fn nearer(a: Option<Foot>, b: Option<Foot>) -> Option<Foot> {
-    match (a, b) {
-        (Some(a), Some(b)) if b.d.abs() < a.d.abs() => Some(b),
-        (Some(a), _) => Some(a),
-        (None, b) => b,
-    }
-}
-
-/// Whether the station's normal ends at the corner's bisector before it reaches the path.
-fn hides(c: &Corner, station: &Station, sample: &Sample) -> bool {
-    let (p, sin) = (station.frenet.p, c.half_sin.abs());
-    let q = p + station.frenet.n() * sample.d;
-    let inner = sample.d * c.half_sin > 0.0;
-    let near = (p - c.point).norm();
-    let close = near * (1.0 - sin * sin).max(0.0).sqrt() <= sample.d.abs() * sin;
-    let across = (q - c.point).dot(&c.along) * (p - c.point).dot(&c.along) <= 0.0;
-    inner && close && (station.frenet.speed == 0.0 || across)
 }

@@ -50,6 +50,14 @@ impl Chain {
 /// # Errors
 /// See [`FitError`].
 pub fn fit(tube: &Tube, plane: Plane, start: Option<f64>) -> Result<Fit, FitError> {
+    counted(tube, plane, start).map(|(fit, _)| fit)
+}
+
+/// The fit, and how many gates the search looked at for it.
+///
+/// # Errors
+/// See [`FitError`].
+pub fn counted(tube: &Tube, plane: Plane, start: Option<f64>) -> Result<(Fit, usize), FitError> {
     let stations = Stations::new(tube, plane, None)?;
     let bound = bound::links(&stations, tube);
     let mut solver = Solver { tube, stations: &stations, search: Search::new(bound), bound };
@@ -59,12 +67,13 @@ pub fn fit(tube: &Tube, plane: Plane, start: Option<f64>) -> Result<Fit, FitErro
         Plane::Xy { .. } => Primitive::Line { to: v.at },
         Plane::Polar { .. } => Primitive::Spiral { to: v.at },
     };
-    Ok(Fit {
+    let fit = Fit {
         start: chain.vertices[0].at,
         primitives: chain.vertices[1..].iter().map(link).collect(),
         lower_bound: Some(bound),
         deviation: chain.range.sides(),
-    })
+    };
+    Ok((fit, solver.search.work))
 }
 
 /// How hard to try, by the number of links.

@@ -83,6 +83,28 @@ impl Meeting {
 }
 
 impl Path {
+    /// The point at a share of the way; that of an arc, whose ends are not kept, is its centre.
+    pub(super) fn at(&self, share: f64) -> Point2 {
+        match *self {
+            Path::Line { from, to } => from + (to - from) * share,
+            Path::Spiral { from, to } => {
+                let (r, angle) = (from.0 + (to.0 - from.0) * share, from.1 + (to.1 - from.1) * share);
+                let (sin, cos) = math::sin_cos(angle);
+                Point2::new(r * cos, r * sin)
+            }
+            Path::Arc { centre, .. } => centre,
+        }
+    }
+    /// The length, or a little more, mm; of an arc, whose ends are not kept, a turn.
+    pub(super) fn length(&self) -> f64 {
+        match *self {
+            Path::Line { from, to } => (to - from).norm(),
+            Path::Spiral { from, to } => {
+                (to.0 - from.0).abs() + from.0.abs().max(to.0.abs()) * (to.1 - from.1).abs()
+            }
+            Path::Arc { radius, .. } => math::TAU * radius,
+        }
+    }
     /// Where the normal of the curve at `f` meets the path; `None` where it does not.
     #[must_use]
     pub fn meet(&self, f: &Frenet) -> Option<Meeting> {
@@ -231,7 +253,7 @@ pub fn deviation(curve: &dyn PlanarCurve, path: &Path, u: (f64, f64), accuracy: 
 /// Pieces into which a span is cut before the cubic is trusted at all.
 const PIECES: u32 = 8;
 
-fn on_span(
+pub(super) fn on_span(
     curve: &dyn PlanarCurve,
     span: usize,
     path: &Path,

@@ -21,6 +21,7 @@ mod ends;
 mod guard;
 mod lines;
 pub mod measure;
+mod near;
 pub mod nurbs;
 #[cfg(test)]
 mod samples;

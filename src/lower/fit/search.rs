@@ -23,6 +23,14 @@ pub struct Effort {
 const COLUMNS: (u32, u32) = (20_000, 256);
 /// Columns next to the first that are looked at one by one; farther out they are skipped in proportion to the distance.
 const DENSE: f64 = 128.0;
+/// Grid points of one vertex's view that are tried where nothing leads on: in corners few of them do.
+const THOROUGH: usize = 2048;
+/// Of these in one column.
+const ACROSS: f64 = 16.0;
+/// Columns of these looked at one by one.
+const CLOSE: f64 = 16.0;
+/// Vertices kept of those.
+const KEPT: usize = 16;
 /// Layers without progress before the search gives up.
 const PATIENCE: u32 = 3;
 
@@ -74,6 +82,8 @@ pub struct Search {
     most: usize,
     /// The aim from the best vertex of the layer; vertices whose view stops at the same gate have it too, nearly.
     aim: Option<(Exit, usize, View)>,
+    /// Gates looked at so far: the measure of the work done.
+    pub work: usize,
 }
 
 impl Search {
@@ -96,10 +106,10 @@ impl Search {
     ) -> Result<Vec<Vertex>, Stuck> {
         let mut nodes: Vec<Node> = roots.iter().map(|v| node(course, *v, usize::MAX)).collect();
         let mut layer: Vec<usize> = (0..nodes.len()).collect();
-        let (mut best, mut idle) = (-1.0_f64, 0);
+        let (mut best, mut idle, mut lost) = (-1.0_f64, 0, false);
         for _ in 0..self.most {
             layer.sort_by(|a, b| nodes[*b].view.reach.total_cmp(&nodes[*a].view.reach).then(a.cmp(b)));
-            layer.truncate(effort.beam);
+            layer.truncate(if lost { KEPT } else { effort.beam });
             let Some(first) = layer.first().map(|i| &nodes[*i]) else {
                 return Err(Stuck { gate: best.max(0.0) as usize });
             };
@@ -111,7 +121,9 @@ impl Search {
             if idle >= PATIENCE {
                 return Err(Stuck { gate: best.max(0.0) as usize });
             }
-            layer = self.expand(course, &mut nodes, &layer, effort);
+            let next = self.expand(course, &mut nodes, &layer, effort);
+            lost = next.is_empty() || idle > 0;
+            layer = if lost { self.thorough(course, &mut nodes, &layer) } else { next };
         }
         Err(Stuck { gate: best.max(0.0) as usize })
     }
@@ -137,10 +149,30 @@ impl Search {
                 if let Some(vertex) = place(course, at, &vertex, &view) {
                     next.push(nodes.len());
                     nodes.push(node(course, vertex, parent));
+                    self.work += nodes[nodes.len() - 1].view.stop - vertex.next;
                 }
             }
         }
         next
+    }
+
+    /// The next layer when nothing else leads on: those of all grid points in view that see farthest themselves.
+    fn thorough(&mut self, course: &Course, nodes: &mut Vec<Node>, layer: &[usize]) -> Vec<usize> {
+        let mut next: Vec<Node> = Vec::new();
+        for &parent in layer {
+            let (vertex, view) = (nodes[parent].vertex, nodes[parent].view);
+            let points = Scan::new(course, &vertex, &view, &view).all();
+            let legal = points.into_iter().filter_map(|at| place(course, at, &vertex, &view));
+            let fresh: Vec<Node> = legal.filter(|v| *v != vertex).map(|v| node(course, v, parent)).collect();
+            self.work += fresh.iter().map(|n| n.view.stop - n.vertex.next).sum::<usize>();
+            next.extend(fresh);
+            next.sort_by(|a, b| b.view.reach.total_cmp(&a.view.reach).then(a.vertex.at.cmp(&b.vertex.at)));
+            next.dedup_by_key(|n| n.vertex.at);
+            next.truncate(KEPT);
+        }
+        let first = nodes.len();
+        nodes.extend(next);
+        (first..nodes.len()).collect()
     }
 
     /// Grid points of the view, best first, into `self.found`.
@@ -149,7 +181,11 @@ impl Search {
         let Some(window) = view.window(course) else { return };
         let aim = match self.aim {
             Some((exit, stop, aim)) if exit == view.exit && stop == view.stop && !effort.all => aim,
-            _ => self.stab.view(course, &window),
+            _ => {
+                let aim = self.stab.view(course, &window);
+                self.work += aim.stop - window.after.min(aim.stop);
+                aim
+            }
         };
         self.aim.get_or_insert((view.exit, view.stop, aim));
         let scan = Scan::new(course, from, view, &aim);
@@ -281,7 +317,7 @@ impl<'a> Scan<'a> {
             if looked > if full { COLUMNS.1 } else { COLUMNS.0 } {
                 return;
             }
-            edge = self.edge(edge, column);
+            edge = self.edge(self.outer, edge, column);
             if let Some((span, ideal)) = self.column(column, edge) {
                 if full && self.cost(column, ideal) > found[found.len() - 1].0 {
                     return;
@@ -292,11 +328,45 @@ impl<'a> Scan<'a> {
         }
     }
 
-    /// The edge of the outer bank at a column.
-    fn edge(&self, mut edge: usize, column: f64) -> usize {
+    /// Grid points between the banks from the tip back, all of a column where there are few.
+    fn all(&self) -> Vec<[i64; 2]> {
+        let (back, front) = (self.from.point()[self.axis], self.view.tip[self.axis].round());
+        let (mut column, mut points) = (front + self.sign, Vec::new());
+        let last = (self.view.stop - 1).min(self.course.end - 1);
+        let mut edges = [(Bank::Left, last), (Bank::Right, last)];
+        while (column - back) * self.sign >= 0.0 && points.len() < THOROUGH {
+            let mut span = (f64::NEG_INFINITY, f64::INFINITY);
+            for (bank, edge) in &mut edges {
+                *edge = self.edge(*bank, *edge, column);
+                self.clip(&self.inside(*bank, *edge), column, &mut span);
+            }
+            if span.0 <= span.1 && span.0.is_finite() && span.1.is_finite() {
+                let stride = floor((span.1 - span.0) / ACROSS) + 1.0;
+                let mut y = -floor(-span.0);
+                while y <= span.1 {
+                    points.push(self.point(column, y));
+                    y += stride;
+                }
+            }
+            column -= self.sign * floor((column - front).abs() / CLOSE).max(1.0);
+        }
+        points
+    }
+
+    /// The inner side of a bank's edge.
+    fn inside(&self, bank: Bank, edge: usize) -> HalfPlane {
+        let (a, b) = (self.course.on(bank, edge), self.course.on(bank, edge + 1));
+        match bank {
+            Bank::Right => HalfPlane::left_of(a, b - a),
+            Bank::Left => HalfPlane::right_of(a, b - a),
+        }
+    }
+
+    /// The edge of a bank at a column.
+    fn edge(&self, bank: Bank, mut edge: usize, column: f64) -> usize {
         let top = (self.view.stop - 1).min(self.course.end - 1);
         let floor = self.from.next.saturating_sub(1);
-        let behind = |i: usize| (column - self.course.on(self.outer, i)[self.axis]) * self.sign < 0.0;
+        let behind = |i: usize| (column - self.course.on(bank, i)[self.axis]) * self.sign < 0.0;
         while edge > floor && behind(edge) {
             edge -= 1;
         }
@@ -308,11 +378,7 @@ impl<'a> Scan<'a> {
 
     /// The part of a column that may be used, and its best point.
     fn column(&self, column: f64, edge: usize) -> Option<((f64, f64), f64)> {
-        let (a, b) = (self.course.on(self.outer, edge), self.course.on(self.outer, edge + 1));
-        let bank = match self.outer {
-            Bank::Right => HalfPlane::left_of(a, b - a),
-            Bank::Left => HalfPlane::right_of(a, b - a),
-        };
+        let bank = self.inside(self.outer, edge);
         let mut span = (f64::NEG_INFINITY, f64::INFINITY);
         for plane in [self.wedge[0], self.wedge[1], bank] {
             self.clip(&plane, column, &mut span);

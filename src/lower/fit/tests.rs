@@ -3,6 +3,7 @@
 //! The checker here measures by brute force (dense points of path and curve, nearest distances) and shares nothing
 //! with the certificate of the fits.
 
+mod corners;
 mod robust;
 
 use std::time::Instant;
@@ -10,7 +11,8 @@ use std::time::Instant;
 use proptest::prelude::*;
 
 use super::samples::{Fourier, How, Pitch, Polygon, Seen};
-use super::{Fit, FitError, Grid, Primitive, Tube, bound, lines, spirals};
+use super::tube::Plane;
+use super::{Fit, FitError, Grid, Primitive, Tube, bound, chain, lines, spirals};
 use crate::geom::curve::{Frenet, PlanarCurve};
 use crate::geom::{Point2, Vec2, cross};
 use crate::math;
@@ -283,6 +285,27 @@ fn a_preferred_start_is_honoured() {
         let first = path(&fit, &grid(3), 1)[0];
         assert!((first - curve.at(start).p).norm() < 4.5, "starts at {first}");
         assert!(fit.primitives.len() <= 99);
+    }
+}
+
+/// The gates looked at for a link do not become more as the links do: 30 times as many links in 1000 times less band.
+#[test]
+fn the_work_grows_as_the_links_do() {
+    let curve = paper();
+    let fine = Grid { angle_step: 1e-6, ..grid(6) };
+    for plane in [Plane::xy(&fine), Plane::polar(&fine)] {
+        let each = |band: f64| {
+            let tube = Tube { curve: &curve, left: band, right: band };
+            let (fit, work) = chain::counted(&tube, plane, None).unwrap();
+            let (links, bound) = (fit.primitives.len() as f64, f64::from(fit.lower_bound.unwrap()));
+            assert!(links <= 1.04 * bound + 1.0, "{band}: {links} links, bound {bound}");
+            work as f64 / links
+        };
+        let coarse = each(1e-2);
+        for band in [1e-3, 1e-4, 1e-5] {
+            let fine = each(band);
+            assert!(fine < 1.5 * coarse, "{band}: {fine} gates a link, {coarse} at 0.01 mm");
+        }
     }
 }
 

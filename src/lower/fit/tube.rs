@@ -20,6 +20,8 @@ const TURN: f64 = 0.1;
 const FAN: f64 = 0.08;
 /// An offset towards the centre of curvature goes no further than this part of the radius.
 const CENTRE: f64 = 0.9;
+/// A tip moves no farther than the boundaries beside it, over this.
+const STEEPEST: f64 = 0.2;
 /// Smallest sampling error that is resolved, mm.
 const FINEST: f64 = 1e-9;
 /// More stations than this are not a path but a mistake in the tolerance.
@@ -260,39 +262,39 @@ impl Stations {
     pub fn gates(&self, tube: &Tube, scale: f64, guard: Guard) -> Gates {
         let (middle, half) = ((tube.left - tube.right) / 2.0, (tube.left + tube.right) / 2.0 * scale);
         let slack = if guard == Guard::Inside { ROUNDING } else { 2.0 * ROUNDING };
-        let l = self.boundary(middle + half + slack, 1.0, guard);
-        let r = self.boundary(middle - half - slack, -1.0, guard);
+        let (l, tips_l) = self.boundary(middle + half + slack, 1.0, guard);
+        let (r, tips_r) = self.boundary(middle - half - slack, -1.0, guard);
         let ccw = self.stations.first().is_some_and(|s| cross(s.frenet.p.coords, s.frenet.t) > 0.0);
         let lap = if self.closed { self.plane.lap(ccw) } else { Vec2::zeros() };
         let mut gates = Gates { l: Vec::new(), r: Vec::new(), lap, closed: self.closed };
         self.map(&l, &r, &mut gates);
         let (shift_l, shift_r) =
-            (self.guard(&gates.l, lap, 1.0, guard), self.guard(&gates.r, lap, -1.0, guard));
+            (self.guard(&gates.l, lap, 1.0, guard, &tips_l), self.guard(&gates.r, lap, -1.0, guard, &tips_r));
         for i in 0..gates.l.len() {
-            gates.l[i] += shift_l[i];
-            gates.r[i] += shift_r[i];
+            gates.l[i] = dyadic(gates.l[i] + shift_l[i]);
+            gates.r[i] = dyadic(gates.r[i] + shift_r[i]);
         }
         gates
     }
 
-    /// The boundary at signed distance `d`, in mm; `side` +1 for the left boundary, -1 for the right.
-    fn boundary(&self, d: f64, side: f64, guard: Guard) -> Vec<Point2> {
+    /// The boundary at signed distance `d`, in mm, and the stations whose offsets end at the tip of a corner; `side` +1
+    /// for the left boundary, -1 for the right.
+    fn boundary(&self, d: f64, side: f64, guard: Guard) -> (Vec<Point2>, Vec<Tip>) {
         let mut points: Vec<Point2> = self
             .stations
             .iter()
             .map(|s| s.frenet.p + s.frenet.n() * clamp_to_centre(d, s.frenet.k))
             .collect();
-        for corner in &self.corners {
-            self.trim(corner, d, side, guard, &mut points);
-        }
-        points
+        let trim = |corner| self.trim(corner, d, side, guard, &mut points);
+        let tips = self.corners.iter().filter_map(trim).collect();
+        (points, tips)
     }
 
     /// On the inner side of a corner the offsets of both spans end at the bisector.
-    fn trim(&self, corner: &Corner, d: f64, side: f64, guard: Guard, points: &mut [Point2]) {
+    fn trim(&self, corner: &Corner, d: f64, side: f64, guard: Guard, points: &mut [Point2]) -> Option<Tip> {
         let inner = corner.half_sin.signum();
         if d * inner <= 0.0 {
-            return;
+            return None;
         }
         let cos = corner.half_cos().max(1e-3);
         // the far boundary may be as far from the corner itself as from its spans; the near one must clear both spans
@@ -305,22 +307,24 @@ impl Stations {
         for i in corner.first..=corner.last {
             points[i % n] = tip;
         }
-        let near = |i: usize| (self.stations[i % n].frenet.p - corner.point).norm() < foot * (1.0 - 1e-9);
+        let near =
+            |i: usize| (self.stations[i % n].frenet.p - corner.point).norm() < foot * BEYOND.0 + BEYOND.1;
         let run = |i: usize| self.stations[i % n].run;
-        let mut i = corner.first;
-        while i > 0 && near(i - 1) && run(i - 1) == run(corner.first) {
-            i -= 1;
-            points[i] = tip;
+        let mut first = corner.first;
+        while first > 0 && near(first - 1) && run(first - 1) == run(corner.first) {
+            first -= 1;
+            points[first] = tip;
         }
-        let mut i = corner.last;
-        while (self.closed || i + 1 < n)
-            && near(i + 1)
-            && run(i + 1) == run(corner.last)
-            && i < corner.last + n
+        let mut last = corner.last;
+        while (self.closed || last + 1 < n)
+            && near(last + 1)
+            && run(last + 1) == run(corner.last)
+            && last < corner.last + n
         {
-            i += 1;
-            points[i % n] = tip;
+            last += 1;
+            points[last % n] = tip;
         }
+        Some(Tip { first, last })
     }
 
     /// Both boundaries in grid coordinates, angles running on.
@@ -337,7 +341,7 @@ impl Stations {
     }
 
     /// How far each point of a boundary must move for the chords to lie inside (outside) the true tube.
-    fn guard(&self, points: &[Vec2], lap: Vec2, side: f64, guard: Guard) -> Vec<Vec2> {
+    fn guard(&self, points: &[Vec2], lap: Vec2, side: f64, guard: Guard, tips: &[Tip]) -> Vec<Vec2> {
         let n = points.len();
         let inwards = if guard == Guard::Inside { 1.0 } else { -1.0 };
         let share = if guard == Guard::Inside { 0.29 } else { 0.4 };
@@ -355,14 +359,34 @@ impl Stations {
                 normal[i] = crate::geom::left(unit) * (-side * inwards);
             }
         }
-        (0..n)
+        let mut shifts: Vec<Vec2> = (0..n)
             .map(|i| {
                 let around = |k: usize| sagitta[k % n];
                 let most = around(i).max(around(i + n - 1)).max(around(i + 1));
                 let direction = if normal[i] == Vec2::zeros() { self.toward(&normal, i) } else { normal[i] };
                 direction * most
             })
-            .collect()
+            .collect();
+        for tip in tips {
+            self.shift_tip(tip, &mut shifts);
+        }
+        shifts
+    }
+
+    /// A tip moves to where the boundaries on both sides of it move: its gates stay in order.
+    fn shift_tip(&self, tip: &Tip, shifts: &mut [Vec2]) {
+        let n = shifts.len();
+        let before =
+            if self.closed || tip.first > 0 { shifts[(tip.first + n - 1) % n] } else { Vec2::zeros() };
+        let after = if self.closed || tip.last + 1 < n { shifts[(tip.last + 1) % n] } else { Vec2::zeros() };
+        let unit = |v: Vec2| if v == Vec2::zeros() { v } else { v.normalize() };
+        let (a, b) = (unit(before), unit(after));
+        let along = unit(a + b);
+        let slant = along.dot(&if a == Vec2::zeros() { b } else { a }).max(STEEPEST);
+        let shift = along * (before.norm().max(after.norm()) / slant);
+        for i in tip.first..=tip.last {
+            shifts[i % n] = shift;
+        }
     }
 
     /// Normal of the nearest neighbour that has one.
@@ -393,6 +417,23 @@ impl Stations {
     fn seam_corner(&self) -> bool {
         self.corners.last().is_some_and(|c| c.last >= self.stations.len())
     }
+}
+
+/// Stations whose offsets end at the tip where those of a corner's sides meet; the last may be a lap further on.
+#[derive(Debug, Clone, Copy)]
+struct Tip {
+    first: usize,
+    last: usize,
+}
+
+/// Stations up to this times the foot of a tip, and mm beyond, end at the tip too: there are none just beyond it.
+const BEYOND: (f64, f64) = (1.0 + 4e-6, 16.0 * ROUNDING);
+
+/// Gates are rounded to this part of a grid unit, so that a lap is added to them exactly.
+const DYADIC: f64 = 16_777_216.0;
+
+fn dyadic(v: Vec2) -> Vec2 {
+    v.map(|x| (x * DYADIC).round() / DYADIC)
 }
 
 /// An offset no further than the centre of curvature allows.
