@@ -133,7 +133,17 @@ impl Printer<'_> {
 
     fn tool(&mut self, tool: &Tool) {
         let (d, r) = (self.length(tool.diameter), self.length(tool.corner));
-        self.line(format_args!("CUTTER/ {d}, {r}"));
+        let [e, f, a, b, h] = tool.profile;
+        // The further numbers of a cutter that its diameter and corner say all about are left out.
+        if [e, f, a, b, h] == [tool.diameter / 2.0 - tool.corner, tool.corner, 0.0, 0.0, 0.0]
+            || tool.profile == [0.0; 5]
+        {
+            self.line(format_args!("CUTTER/ {d}, {r}"));
+        } else {
+            let (e, f, h) = (self.length(e), self.length(f), self.length(h));
+            let (a, b) = (number(a.to_degrees()), number(b.to_degrees()));
+            self.line(format_args!("CUTTER/ {d}, {r}, {e}, {f}, {a}, {b}, {h}"));
+        }
         match tool.number {
             Some(n) => self.line(format_args!("LOADTL/ {n} $$ {}", tool.name)),
             None => self.line(format_args!("LOADTL/ {}", tool.name)),

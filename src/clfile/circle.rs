@@ -101,9 +101,9 @@ impl Reader<'_> {
         let first = self.state.circle.as_ref().is_some_and(|c| c.points.is_empty());
         self.flush_circle();
         if first {
-            let off = (r - wanted).abs().max((r0 - wanted).abs());
-            let message =
-                format!("the points after this circle are {:.4} mm off it: they are joined by lines", off);
+            let off = (r - wanted).abs().max((r0 - wanted).abs()).max((h - h0).abs());
+            let off = self.show(off);
+            let message = format!("the points after this circle are {off} off it: they are joined by lines");
             self.complain(&codes::ARC_NOT_TRUSTED, message);
         }
         self.move_to(to);
@@ -127,7 +127,12 @@ impl Reader<'_> {
             turned += pending.angle(from, point);
             from = point;
         }
-        if turned > TAU + 1e-6 {
+        let rounding = 2.0 * TRUST / pending.place(start).0.max(TRUST);
+        if (turned - TAU).abs() <= rounding {
+            // The last point is the first one, as far as it is printed: a full circle, not next to nothing.
+            return self.emit_arc(&pending, start);
+        }
+        if turned > TAU {
             let message = "the points after this circle go round more than once: they are joined by lines";
             self.complain(&codes::ARC_NOT_TRUSTED, message.to_owned());
             let points = core::mem::take(&mut pending.points);

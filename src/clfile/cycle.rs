@@ -12,21 +12,72 @@ use crate::ir::{Feed, Spindle};
 pub(super) struct Asked {
     cycle: Cycle,
     /// Retract level above the hole's point.
-    return_to: Option<f64>,
+    return_to: Return,
     /// The feed is given in the record, not by `FEDRAT`.
     own_feed: bool,
     /// Surface of the holes since the cycle's begin in the CL data.
     open: Option<f64>,
 }
 
+/// Where the tool goes after a hole.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Return {
+    /// To the clearance level.
+    Clearance,
+    /// To where it was when the cycle began.
+    Begin,
+    /// To this height above the hole's point, mm.
+    Above(f64),
+}
+
+impl Asked {
+    /// Height of the tool after a hole on a surface at `z`, mm, coming from `at`.
+    fn level(&self, z: f64, at: Option<Point3>) -> f64 {
+        let clearance = z + self.cycle.clearance;
+        match self.return_to {
+            Return::Clearance => clearance,
+            Return::Above(height) => z + height,
+            Return::Begin => at.map_or(clearance, |at| at.z.max(clearance)),
+        }
+    }
+}
+
 /// Words that change the kind of a cycle or carry a number, by meaning.
-const DEPTH: &[&str] = &["FEDTO", "DEPTH"];
-const CLEARANCE: &[&str] = &["RAPTO", "CLEAR", "CLEARP"];
-const RETURN: &[&str] = &["RTRCTO", "RETURN", "RETRCT"];
-const PECK: &[&str] = &["STEP", "STEP1", "SUBPECK", "PECK", "INCR", "INCREM"];
-const FIRST_PECK: &[&str] = &["1STPECK"];
-const FEEDS: &[&str] = &["MMPM", "IPM", "MMPR", "IPR", "PERMIN", "PERREV"];
-const SILENT: &[&str] = &["ON", "TOOL", "SYNC", "MANUAL", "AUTO", "NONE", "THRU", "RPM", "CLW"];
+pub(super) const DEPTH: &[&str] = &["FEDTO", "DEPTH"];
+pub(super) const CLEARANCE: &[&str] = &["RAPTO", "CLEAR", "CLEARP"];
+pub(super) const RETURN: &[&str] = &["RTRCTO", "RETURN", "RETRCT"];
+pub(super) const PECK: &[&str] = &["STEP", "SUBPECK", "PECK", "INCR", "INCREM"];
+pub(super) const FIRST_PECK: &[&str] = &["1STPECK", "STEP1"];
+/// Pecks of NX, from the first on: the smallest of the further ones is taken for all of them.
+pub(super) const NEXT_PECKS: &[&str] = &["STEP2", "STEP3", "STEP4", "STEP5", "STEP6", "STEP7"];
+pub(super) const FEEDS: &[&str] = &["MMPM", "IPM", "MMPR", "IPR", "PERMIN", "PERREV"];
+pub(super) const SILENT: &[&str] = &["ON", "TOOL", "SYNC", "AUTO", "NONE", "THRU", "RPM", "CLW", "FIX", "FLOAT", "RIGID"];
+/// Other words, with a number or without.
+pub(super) const OTHER: &[&str] = &["DWELL", "REV", "PITCH", "LEFT", "CCLW", "DRAG", "NODRAG", "ORIENT"];
+/// Kinds of cycle by what they do.
+pub(super) const KINDS: &[(&[&str], Action)] = &[
+    (&["DRILL", "THRU", "CSINK", "SPOTDR"], Action::Drill),
+    (&["FACE", "SPOTFC", "SPTFAC", "CBORE", "COUNTR"], Action::Face),
+    (&["DEEP", "DEEP2", "DEEPHL", "PECK"], Action::Deep),
+    (&["BRKCHP", "BRKCHIP", "BREAK", "CHPBRK", "CHIP"], Action::ChipBreak),
+    (&["TAP"], Action::Tap),
+    (&["BORE"], Action::Bore),
+    (&["REAM"], Action::Ream),
+];
+/// What a word for a kind of cycle asks for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Action {
+    Drill,
+    Face,
+    Deep,
+    ChipBreak,
+    Tap,
+    Bore,
+    Ream,
+}
+
+/// Kinds that may stand behind a more general one: `CYCLE/ DRILL, DEEP`.
+pub(super) const FINER: &[&str] = &["DEEP", "BRKCHP", "CSINK", "TAP", "REAM", "FACE", "CBORE"];
 
 impl Reader<'_> {
     pub(super) fn cycle(&mut self, s: &Statement) {
@@ -62,14 +113,20 @@ impl Reader<'_> {
         let clearance = clearance.ok_or("the cycle has no clearance: RAPTO or CLEAR")?;
         let (feed, own_feed) = self.cycle_feed(s);
         let dwell = self.cycle_dwell(s);
+        let word = s.words().skip(1).find(|w| FINER.contains(w)).unwrap_or(word);
         let kind = self.kind(word, s, dwell, feed)?;
-        let peck = value(PECK).filter(|p| *p > 0.0);
-        let first_peck = value(FIRST_PECK).filter(|p| *p > 0.0);
+        let (peck, first_peck) = pecks(s, scale);
         if matches!(kind, CycleKind::Deep | CycleKind::ChipBreak) && peck.is_none() {
             return Err("the cycle has no depth of cut: STEP or SUBPECK".to_owned());
         }
-        let return_to = value(RETURN).filter(|r| *r > clearance);
-        let retract = if return_to.is_some() { RetractTo::Initial } else { RetractTo::Clearance };
+        let begin = RETURN.iter().any(|w| word_after(s, w).is_some_and(|w| w == "ON" || w == "AUTO"));
+        let return_to = match value(RETURN).filter(|r| *r > clearance) {
+            Some(height) => Return::Above(height),
+            None if begin => Return::Begin,
+            None => Return::Clearance,
+        };
+        let retract =
+            if return_to == Return::Clearance { RetractTo::Clearance } else { RetractTo::Initial };
         let feed = feed.unwrap_or(Feed::PerMinute(0.0));
         let cycle = Cycle { kind, depth, clearance, retract, peck, first_peck, dwell, feed };
         Ok(Asked { cycle, return_to, own_feed, open: None })
@@ -77,9 +134,8 @@ impl Reader<'_> {
 
     /// A word that nobody knows may change the hole.
     fn known_words(&mut self, kind: &str, s: &Statement) -> Result<(), String> {
-        let lists = [DEPTH, CLEARANCE, RETURN, PECK, FIRST_PECK, FEEDS, SILENT];
-        let rest = ["DWELL", "REV", "PITCH", "LEFT", "CCLW", "DRAG", "NODRAG", "ORIENT", "CSINK"];
-        let known = |w: &str| w == kind || rest.contains(&w) || lists.iter().any(|l| l.contains(&w));
+        let lists = [DEPTH, CLEARANCE, RETURN, PECK, FIRST_PECK, NEXT_PECKS, FEEDS, SILENT, FINER, OTHER];
+        let known = |w: &str| w == kind || lists.iter().any(|l| l.contains(&w));
         match s.words().find(|w| !known(w)) {
             Some(word) => Err(format!("the cycle has a word that is not known: {word}")),
             None => Ok(()),
@@ -93,22 +149,23 @@ impl Reader<'_> {
         dwell: Option<f64>,
         feed: Option<Feed>,
     ) -> Result<CycleKind, String> {
-        Ok(match word {
-            "DRILL" | "THRU" | "CSINK" if dwell.is_none() => CycleKind::Drill,
-            "DRILL" | "THRU" | "CSINK" | "FACE" | "SPOTFC" | "SPTFAC" | "CBORE" | "COUNTR" => {
-                CycleKind::Dwell
+        let action = KINDS.iter().find(|(words, _)| words.contains(&word)).map(|(_, action)| *action);
+        let action = action.ok_or_else(|| format!("the cycle {word} is not known"))?;
+        Ok(match (action, dwell) {
+            (Action::Drill, None) => CycleKind::Drill,
+            (Action::Drill | Action::Face, _) => CycleKind::Dwell,
+            (Action::Deep, _) => CycleKind::Deep,
+            (Action::ChipBreak, _) => CycleKind::ChipBreak,
+            (Action::Tap, _) => {
+                CycleKind::Tap { pitch: self.pitch(s, feed)?, left: s.has("LEFT") || s.has("CCLW") }
             }
-            "DEEP" | "DEEP2" | "PECK" => CycleKind::Deep,
-            "BRKCHP" | "BRKCHIP" | "BREAK" | "CHPBRK" | "CHIP" => CycleKind::ChipBreak,
-            "TAP" => CycleKind::Tap { pitch: self.pitch(s, feed)?, left: s.has("LEFT") || s.has("CCLW") },
-            "BORE" if s.has("NODRAG") || s.has("ORIENT") => {
+            (Action::Bore, _) if s.has("NODRAG") || s.has("ORIENT") => {
                 let shift = s.after("ORIENT").or_else(|| s.after("NODRAG"));
                 let shift = shift.ok_or("the cycle has no distance to move off the wall: ORIENT")?;
                 CycleKind::BoreOrient { shift: shift * self.state.scale }
             }
-            "BORE" | "REAM" if dwell.is_some() => CycleKind::BoreDwell,
-            "BORE" | "REAM" => CycleKind::Bore,
-            other => return Err(format!("the cycle {other} is not known")),
+            (Action::Bore | Action::Ream, Some(_)) => CycleKind::BoreDwell,
+            (Action::Bore | Action::Ream, None) => CycleKind::Bore,
         })
     }
 
@@ -156,8 +213,8 @@ impl Reader<'_> {
             self.open_cycle(asked, point);
         }
         self.emit(RecordKind::Hole(point));
-        let level =
-            self.state.cycle.as_ref().map_or(point.z, |a| point.z + a.return_to.unwrap_or(a.cycle.clearance));
+        let at = self.state.at;
+        let level = self.state.cycle.as_ref().map_or(point.z, |a| a.level(point.z, at));
         self.state.at = Some(Point3::new(point.x, point.y, level));
     }
 
@@ -165,8 +222,8 @@ impl Reader<'_> {
     fn open_cycle(&mut self, mut asked: Asked, point: Point3) {
         self.close_cycle();
         self.ready_to_drill(&mut asked);
-        let level = point.z + asked.return_to.unwrap_or(asked.cycle.clearance);
         self.make_sure();
+        let level = asked.level(point.z, self.state.at);
         match self.state.at {
             Some(at) if at.z < level => self.emit(RecordKind::Rapid(Point3::new(at.x, at.y, level))),
             Some(_) => {}
@@ -214,6 +271,23 @@ impl Reader<'_> {
         self.close_cycle();
         self.state.cycle = None;
     }
+}
+
+/// Depth of the pecks but the first, and of the first where it differs, mm.
+fn pecks(s: &Statement, scale: f64) -> (Option<f64>, Option<f64>) {
+    let value = |words: &[&str]| words.iter().find_map(|w| s.after(w)).filter(|v| *v > 0.0);
+    let next = NEXT_PECKS.iter().filter_map(|w| s.after(w)).filter(|v| *v > 0.0).reduce(f64::min);
+    let first = value(FIRST_PECK);
+    let peck = value(PECK).or(next).or(first).map(|v| v * scale);
+    (peck, first.map(|v| v * scale).filter(|v| Some(*v) != peck))
+}
+
+/// The word that stands behind a word.
+fn word_after<'s>(s: &'s Statement, wanted: &str) -> Option<&'s str> {
+    s.args.windows(2).find_map(|w| match w {
+        [Arg::Word(word), Arg::Word(next)] if word == wanted => Some(next.as_str()),
+        _ => None,
+    })
 }
 
 /// Numbers that stand behind no word, or behind the kind: depth, and clearance at the end.

@@ -101,7 +101,18 @@ fn cut(line: &str) -> (&str, bool) {
     if let Some(rest) = trimmed.strip_suffix(['$', '~']) {
         return (rest, true);
     }
-    (trimmed, trimmed.ends_with(','))
+    // The comma of a line number asks for nothing.
+    (trimmed, trimmed.ends_with(',') && !without_number(trimmed.trim_start()).is_empty())
+}
+
+/// A record without the number of its input line: `N12 ,`, or `C12 ,` for what belongs to the same line.
+#[must_use]
+pub fn without_number(text: &str) -> &str {
+    let digits = |rest: &'_ str| rest.len() - rest.trim_start_matches(|c: char| c.is_ascii_digit()).len();
+    let rest = text.strip_prefix(['N', 'n', 'C', 'c']).unwrap_or("");
+    let length = digits(rest);
+    let record = rest.get(length..).and_then(|r| r.trim_start().strip_prefix(','));
+    record.filter(|_| length > 0).map_or(text, str::trim_start)
 }
 
 /// Words that take the rest of the line as text.

@@ -94,7 +94,12 @@ impl Reader<'_> {
     #[inline]
     pub(super) fn move_to(&mut self, to: Point3) {
         self.state.moved = true;
-        if self.state.rapid || self.state.at.is_none() && self.state.load.is_some() {
+        if self.state.load.is_some() {
+            // Where a new tool is nobody knows.
+            self.begin_operation();
+            self.flush_tool();
+        }
+        if self.state.rapid {
             self.rapid_to(to);
         } else if self.state.cycle.is_some() {
             self.hole(to);
@@ -105,8 +110,15 @@ impl Reader<'_> {
 
     fn rapid_to(&mut self, to: Point3) {
         self.pause_cycle();
+        if self.before_first_tool() {
+            self.state.rapid = false;
+            self.state.first = Some((to, self.span));
+            self.state.at = Some(to);
+            return;
+        }
         self.begin_operation();
         self.flush_tool();
+        self.start_spindle();
         if !self.state.rapid {
             let message = "the first move after a tool change starts nobody knows where: it is made at rapid";
             self.complain(&codes::FIRST_AT_RAPID, message.to_owned());
@@ -115,6 +127,11 @@ impl Reader<'_> {
         self.emit(RecordKind::Rapid(to));
         self.state.at = Some(to);
         self.state.sure = true;
+    }
+
+    /// No tool is there and none has been called: nothing can be moved to a point yet.
+    fn before_first_tool(&self) -> bool {
+        self.state.loaded.is_none() && self.state.load.is_none()
     }
 
     /// Where a cut starts the control must have been told; after `FROM` it has not.
@@ -247,12 +264,18 @@ impl Reader<'_> {
             self.set_axis(Vec3::new(i, j, k));
         }
         let Some(p) = self.point([x, y, z]) else { return };
+        self.state.from = Some(p);
+        if self.before_first_tool() {
+            self.state.first = Some((p, self.span));
+            self.state.at = Some(p);
+            return;
+        }
         self.begin_operation();
         self.flush_tool();
+        self.start_spindle();
         // It is approached at rapid.
         self.emit(RecordKind::From(p));
         self.state.sure = true;
-        self.state.from = Some(p);
         self.state.at = Some(p);
         self.state.moved = true;
     }

@@ -8,7 +8,7 @@ use super::scan;
 use crate::cl::RecordKind;
 use crate::diag::codes::foreign as codes;
 use crate::geom::{Point3, Vec3};
-use crate::ir::{Coolant, Spindle};
+use crate::ir::Coolant;
 
 /// Codes that do nothing a program must say.
 const HARMLESS: &[i64] = &[
@@ -50,7 +50,9 @@ impl<'t> Reader<'t> {
             1002 => self.nci_tool(&numbers),
             1003 => self.state.ended = true,
             80 => {}
-            81 | 82 | 83 | 84 | 85 | 86 | 87 | 88 | 89 | 100 | 101 => {
+            // Further holes of a cycle that was refused.
+            100 | 101 => {}
+            81..=89 => {
                 let message = format!(
                     "the drilling record {code} of NCI is not read: the order of its numbers is not known"
                 );
@@ -120,15 +122,13 @@ impl<'t> Reader<'t> {
         let number = (tool >= 0.0 && tool.fract() == 0.0 && tool < 1e8).then_some(tool as u32);
         self.load(number);
         if speed != 0.0 {
-            self.state.spindle = Some(Spindle::On { rpm: speed.abs(), clockwise: speed > 0.0 });
-            self.state.spindle_recorded = false;
+            self.turn_at(speed.abs(), speed > 0.0);
         }
         if feed > 0.0 {
             self.set_feed_number(feed);
         }
         if coolant > 0.0 {
-            self.flush_tool();
-            self.emit(RecordKind::Coolant(if coolant == 2.0 { Coolant::Mist } else { Coolant::Flood }));
+            self.switch_coolant(if coolant == 2.0 { Coolant::Mist } else { Coolant::Flood });
         }
     }
 

@@ -8,10 +8,27 @@ use crate::ir::{Coolant, Feed, Spindle};
 use crate::units::LengthUnit;
 
 /// Words of a feed per minute, with the length they count in mm; 0: the file's unit.
-const PER_MINUTE: &[(&str, f64)] =
+pub(super) const PER_MINUTE: &[(&str, f64)] =
     &[("MMPM", 1.0), ("IPM", 25.4), ("FPM", 304.8), ("PERMIN", 0.0), ("MPM", 1000.0), ("UPM", 0.0)];
 /// Words of a feed per revolution.
-const PER_REVOLUTION: &[(&str, f64)] = &[("MMPR", 1.0), ("IPR", 25.4), ("PERREV", 0.0), ("UPR", 0.0)];
+pub(super) const PER_REVOLUTION: &[(&str, f64)] =
+    &[("MMPR", 1.0), ("IPR", 25.4), ("PERREV", 0.0), ("UPR", 0.0)];
+/// Words that a feed may have without another meaning.
+pub(super) const FEED_SILENT: &[&str] = &["NOW", "NEXT"];
+/// Words of a speed.
+pub(super) const SPEED_WORDS: &[&str] =
+    &["RPM", "REVPM", "CLW", "CCLW", "ON", "SFM", "SMM", "RANGE", "MAXRPM", "LOW", "MEDIUM", "HIGH"];
+/// Words that stop the spindle.
+pub(super) const SPINDLE_OFF: &[&str] = &["OFF", "STOP"];
+/// Words of the coolant.
+pub(super) const COOLANTS: &[(&str, Coolant)] = &[
+    ("ON", Coolant::Flood),
+    ("FLOOD", Coolant::Flood),
+    ("MIST", Coolant::Mist),
+    ("OFF", Coolant::Off),
+];
+/// Words that ask for compensation in the control, and that it ends.
+pub(super) const COMPENSATION: (&[&str], &[&str]) = (&["LEFT", "RIGHT", "ON"], &["OFF"]);
 
 impl Reader<'_> {
     /// `-D SPINDL=…` and the like: what the file lacks.
@@ -42,8 +59,8 @@ impl Reader<'_> {
             "SPINDL" => self.spindl(s),
             "COOLNT" => self.coolnt(s),
             "DELAY" | "DWELL" => self.delay(s),
-            "STOP" => self.emit(RecordKind::Stop),
-            "OPSTOP" => self.emit(RecordKind::OptionalStop),
+            "STOP" => self.stop(RecordKind::Stop),
+            "OPSTOP" => self.stop(RecordKind::OptionalStop),
             "UNITS" | "UNIT" => self.unit(s),
             "CUTCOM" => self.cutcom(s),
             word => self.tolerance(word, s),
@@ -71,7 +88,7 @@ impl Reader<'_> {
             return;
         }
         let known = |w: &&str| {
-            PER_MINUTE.iter().chain(PER_REVOLUTION).any(|(k, _)| k == w) || *w == "NOW" || *w == "NEXT"
+            PER_MINUTE.iter().chain(PER_REVOLUTION).any(|(k, _)| k == w) || FEED_SILENT.contains(w)
         };
         if let Some(unknown) = words.iter().find(|w| !known(w)) {
             let message = format!("FEDRAT with {unknown} cannot be carried out");
@@ -103,16 +120,15 @@ impl Reader<'_> {
 
     fn spindl(&mut self, s: &Statement) {
         let words: Vec<&str> = s.words().collect();
-        if words.contains(&"OFF") || words.contains(&"STOP") {
+        if words.iter().any(|w| SPINDLE_OFF.contains(w)) {
             self.leave_cycle();
             self.state.spindle = Some(Spindle::Off);
-            self.state.spindle_recorded = true;
             self.flush_tool_if_waiting();
+            self.state.spindle_recorded = true;
+            self.state.spindle_due = false;
             return self.emit(RecordKind::Spindle(Spindle::Off));
         }
-        let known =
-            ["RPM", "CLW", "CCLW", "ON", "RANGE", "MAXRPM", "LOW", "MEDIUM", "HIGH", "SFM", "SMM", "REVPM"];
-        if let Some(unknown) = words.iter().find(|w| !known.contains(w)) {
+        if let Some(unknown) = words.iter().find(|w| !SPEED_WORDS.contains(w)) {
             let message = format!("SPINDL with {unknown} cannot be carried out");
             return self.soften(&codes::NOT_CARRIED_OUT, message, None);
         }
@@ -130,9 +146,23 @@ impl Reader<'_> {
         } else {
             clockwise
         };
+        self.turn_at(rpm, clockwise);
+    }
+
+    /// The spindle is to turn so from the next move on.
+    pub(super) fn turn_at(&mut self, rpm: f64, clockwise: bool) {
+        let on = Some(Spindle::On { rpm, clockwise });
         self.state.last_speed = Some((rpm, clockwise));
-        self.state.spindle = Some(Spindle::On { rpm, clockwise });
-        self.state.spindle_recorded = false;
+        self.state.spindle_recorded &= self.state.spindle == on;
+        self.state.spindle = on;
+        self.state.spindle_due = true;
+    }
+
+    /// Starts the spindle before the tool goes down to the work, where the file has done so.
+    pub(super) fn start_spindle(&mut self) {
+        if self.state.spindle_due && !self.state.spindle_recorded && self.state.loaded.is_some() {
+            self.record_spindle();
+        }
     }
 
     /// rev/min; a surface speed needs the cutter's diameter.
@@ -152,6 +182,7 @@ impl Reader<'_> {
         match self.state.spindle {
             Some(on @ Spindle::On { .. }) => {
                 self.state.spindle_recorded = true;
+                self.state.spindle_due = false;
                 self.emit(RecordKind::Spindle(on));
             }
             _ => self.lacks("SPINDL"),
@@ -160,17 +191,29 @@ impl Reader<'_> {
 
     fn coolnt(&mut self, s: &Statement) {
         let word = s.words().next().unwrap_or("ON");
-        let coolant = match word {
-            "OFF" => Coolant::Off,
-            "ON" | "FLOOD" => Coolant::Flood,
-            "MIST" => Coolant::Mist,
-            other => {
-                let message = format!("COOLNT with {other} cannot be carried out");
-                return self.soften(&codes::NOT_CARRIED_OUT, message, None);
+        match COOLANTS.iter().find(|(w, _)| *w == word) {
+            Some((_, coolant)) => self.switch_coolant(*coolant),
+            None => {
+                let message = format!("COOLNT with {word} cannot be carried out");
+                self.soften(&codes::NOT_CARRIED_OUT, message, None);
             }
-        };
+        }
+    }
+
+    /// What is on already needs no record.
+    pub(super) fn switch_coolant(&mut self, coolant: Coolant) {
         self.flush_tool_if_waiting();
-        self.emit(RecordKind::Coolant(coolant));
+        if self.state.coolant != Some(coolant) {
+            self.state.coolant = Some(coolant);
+            self.emit(RecordKind::Coolant(coolant));
+        }
+    }
+
+    fn stop(&mut self, kind: RecordKind) {
+        self.flush_tool_if_waiting();
+        self.emit(kind);
+        // Some machines stop the coolant, too: what the file switches on again is switched on.
+        self.state.coolant = None;
     }
 
     /// Seconds, or revolutions with `REV`.
@@ -202,12 +245,13 @@ impl Reader<'_> {
 
     /// Points are the cutter's centre; a control's own compensation on top is not written.
     fn cutcom(&mut self, s: &Statement) {
-        let on = s.has("LEFT") || s.has("RIGHT") || s.has("ON");
+        let on = COMPENSATION.0.iter().any(|w| s.has(w));
         if on && !self.state.compensation_told {
             self.state.compensation_told = true;
             let message =
                 "the path is written as the points say, without the control's own compensation (G41, G42)";
-            self.complain(&codes::NO_COMPENSATION, message.to_owned());
+            let diagnostic = crate::diag::Diagnostic::new(&codes::NO_COMPENSATION, self.span, message);
+            self.tell(diagnostic.help(codes::NO_COMPENSATION_HELP));
         }
     }
 

@@ -27,6 +27,8 @@ const SIGNS: &[(&str, Producer)] = &[
     ("TOOL PATH/", Producer::Nx),
     ("TLDATA/", Producer::Nx),
     ("END-OF-PATH", Producer::Nx),
+    ("$$*CATIA", Producer::Catia),
+    ("$$ CATIA APT", Producer::Catia),
     ("$$*", Producer::Creo),
     ("$$->", Producer::Creo),
     ("TRNTYP/", Producer::SolidWorks),

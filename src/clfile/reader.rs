@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::grammar::{self, Statement};
-use super::lines::{Lines, Piece, raw_word};
+use super::lines::{Lines, Piece, raw_word, without_number};
 use super::scan;
 use super::state::State;
 use super::words::{self, Class};
@@ -214,15 +214,23 @@ impl<'t> Reader<'t> {
         if let Some(name) = upper.strip_prefix("OPERATION NAME") {
             let name = name.trim_start_matches([' ', ':']).trim();
             self.begin_named(name.to_owned());
+        } else if let Some(name) = body.strip_prefix("OPERATION ").filter(|_| self.producer == Producer::Plain)
+        {
+            // As `--emit cl` and the post `apt-cl` write it: with a number before it, or without.
+            let (number, rest) = name.split_once(": ").unwrap_or(("", name));
+            let name = if number.parse::<u32>().is_ok() { rest } else { name };
+            let name = name.strip_prefix("CL ").filter(|n| n.parse::<u32>().is_err()).unwrap_or(name);
+            self.begin_named(name.to_owned());
         }
     }
 
     fn record_text(&mut self, text: &str) {
         let trimmed = text.trim();
-        if trimmed.is_empty() || trimmed == "%" {
+        let record = without_number(trimmed);
+        if record.is_empty() || record == "%" {
             return;
         }
-        if let Some((word, rest)) = raw_word(without_number(trimmed)) {
+        if let Some((word, rest)) = raw_word(record) {
             return self.raw(word, rest);
         }
         if self.state.continues && trimmed.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c)) {
@@ -297,6 +305,7 @@ impl<'t> Reader<'t> {
         match words::class(word) {
             Some(Class::Harmless) => {}
             Some(Class::Matters(_)) if s.only_numbers() && zero(s) && matches!(word, "ORIGIN" | "TRANS") => {}
+            Some(Class::Matters(_)) if words::already_so(word, &s.words().collect::<Vec<_>>()) => {}
             Some(Class::Matters(why)) => {
                 let message = format!("{word} cannot be carried out: {why}");
                 self.soften(&codes::NOT_CARRIED_OUT, message, None);
@@ -416,13 +425,6 @@ impl<'t> Reader<'t> {
     }
 }
 
-/// A record without the number of its input line, `N12 ,`.
-fn without_number(text: &str) -> &str {
-    let after =
-        text.strip_prefix(['N', 'n']).map(|rest| rest.trim_start_matches(|c: char| c.is_ascii_digit()));
-    let record = after.and_then(|rest| rest.trim_start().strip_prefix(','));
-    record.filter(|_| text.as_bytes().get(1).is_some_and(u8::is_ascii_digit)).map_or(text, str::trim_start)
-}
 
 fn zero(s: &Statement) -> bool {
     s.numbers().iter().all(|v| *v == 0.0)

@@ -5,7 +5,7 @@ use super::cycle::Asked;
 use super::nurbs::Spans;
 use super::tool::{Data, Load};
 use crate::geom::{Point3, Vec3};
-use crate::ir::{Band, Feed, Spindle};
+use crate::ir::{Band, Coolant, Feed, Spindle};
 
 /// Tolerance of a file that states none, mm: of arcs and curves, on either side.
 const BAND: f64 = 0.01;
@@ -17,6 +17,8 @@ pub(super) struct State {
     pub scale: f64,
     pub at: Option<Point3>,
     pub from: Option<Point3>,
+    /// Where the first tool is wanted, said before it is changed in.
+    pub first: Option<(Point3, crate::source::Span)>,
     /// Tool axis, unit vector.
     pub axis: Vec3,
     /// The next move is at rapid.
@@ -28,6 +30,10 @@ pub(super) struct State {
     pub spindle: Option<Spindle>,
     /// The spindle command is in the CL data since the last tool change.
     pub spindle_recorded: bool,
+    /// The file has given a speed since the last one in the CL data.
+    pub spindle_due: bool,
+    /// As last switched in the CL data.
+    pub coolant: Option<Coolant>,
     /// Speed for `SPINDL/ ON`.
     pub last_speed: Option<(f64, bool)>,
     pub band: Band,
@@ -63,6 +69,7 @@ impl State {
             scale,
             at: None,
             from: None,
+            first: None,
             axis: Vec3::z(),
             rapid: false,
             continues: false,
@@ -70,6 +77,8 @@ impl State {
             recorded_feed: None,
             spindle: None,
             spindle_recorded: false,
+            spindle_due: false,
+            coolant: None,
             last_speed: None,
             band: Band { into: BAND, out: BAND },
             tool: Data::default(),

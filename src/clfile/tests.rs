@@ -2,6 +2,7 @@
 
 mod fast;
 mod producers;
+mod vocabulary;
 mod words;
 
 use super::{Options, Producer, Reader};

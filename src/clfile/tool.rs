@@ -23,6 +23,12 @@ pub(super) struct Load {
     span: Span,
 }
 
+/// Words of a tool change with the number of an offset in the control.
+pub(super) const OFFSETS: &[&str] = &["ADJUST", "OSETNO", "ZOFF"];
+
+/// Tools that do not turn.
+const NOT_MILLING: &[&str] = &["TURN", "LATHE", "THREAD", "GROOVE", "WEDM", "LASER", "PUNCH"];
+
 impl Data {
     /// Diameter in mm, if the file gave one.
     pub fn diameter(&self) -> Option<f64> {
@@ -33,6 +39,8 @@ impl Data {
 impl Reader<'_> {
     pub(super) fn tool(&mut self, s: &Statement) {
         match s.major() {
+            // What a screen shows of the holder.
+            "CUTTER" if s.has("DISPLY") || s.has("HOLDER") => {}
             "CUTTER" => self.cutter(&s.numbers()),
             "TLDATA" => self.nx_data(s),
             "TOOLNO" | "LOADTL" => self.load_words(s),
@@ -64,6 +72,10 @@ impl Reader<'_> {
 
     /// `TLDATA/ MILL, d, r, length, taper, tip` or `DRILL, MILL, d, …`.
     fn nx_data(&mut self, s: &Statement) {
+        if let Some(word) = s.words().find(|w| NOT_MILLING.contains(w)) {
+            let message = format!("TLDATA with {word} cannot be carried out: the posts are for milling");
+            return self.soften(&codes::NOT_CARRIED_OUT, message, None);
+        }
         let numbers = s.numbers();
         let [d, r, ..] = *numbers else { return };
         let corner = if s.has("DRILL") { 0.0 } else { r };
@@ -72,12 +84,12 @@ impl Reader<'_> {
 
     /// `TOOL PATH/ operation, TOOL, tool`.
     pub(super) fn tool_path(&mut self, text: &str) {
-        let (operation, tool) = match text.find(",TOOL,") {
-            Some(at) => (text.get(..at).unwrap_or(text), text.get(at + 6..)),
-            None => (text, None),
-        };
-        self.begin_named(operation.trim().to_owned());
-        let Some(tool) = tool.map(str::trim).filter(|t| !t.is_empty()) else { return };
+        let parts: Vec<&str> = text.split(',').map(str::trim).collect();
+        let word = parts.iter().rposition(|p| p.eq_ignore_ascii_case("TOOL")).unwrap_or(parts.len());
+        let joined = |parts: &[&str]| parts.join(",");
+        self.begin_named(joined(parts.get(..word).unwrap_or_default()));
+        let tool = joined(parts.get(word + 1..).unwrap_or_default());
+        let Some(tool) = Some(tool.as_str()).filter(|t| !t.is_empty()) else { return };
         let same = self.state.tool.name.as_deref() == Some(tool);
         if !same {
             self.state.tool = Data { name: Some(tool.to_owned()), ..Data::default() };
@@ -99,7 +111,27 @@ impl Reader<'_> {
             }
             return;
         }
+        for word in OFFSETS {
+            if let (Some(offset), Some(number)) = (s.after(word), number)
+                && offset != 0.0
+                && offset != f64::from(number)
+            {
+                let message = format!(
+                    "{} with {word}, {offset} cannot be carried out: the offsets used are those of the tool's own number, {number}",
+                    s.major()
+                );
+                self.soften(&codes::NOT_CARRIED_OUT, message, None);
+            }
+        }
         self.load(number);
+        if number.is_none()
+            && let Some(name) = s.words().find(|w| *w != "TOOL")
+        {
+            self.state.tool.name = Some(name.to_owned());
+        }
+        if let Some(rpm) = s.after("SPINDL").filter(|rpm| *rpm > 0.0 && rpm.is_finite()) {
+            self.turn_at(rpm, true);
+        }
     }
 
     pub(super) fn load(&mut self, number: Option<u32>) {
@@ -168,6 +200,19 @@ impl Reader<'_> {
         }
         self.span = span;
         self.forget_origin();
+        self.go_to_first();
+    }
+
+    /// The point at which the file wants the first tool: given before its change.
+    fn go_to_first(&mut self) {
+        if let Some((point, span)) = self.state.first.take() {
+            let span = core::mem::replace(&mut self.span, span);
+            self.emit(RecordKind::From(point));
+            self.state.at = Some(point);
+            self.state.sure = true;
+            self.span = span;
+            self.forget_origin();
+        }
     }
 
     /// An operation with a name of its own comes next.

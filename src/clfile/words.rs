@@ -120,6 +120,47 @@ pub(super) fn class(word: &str) -> Option<Class> {
     MATTERS.iter().find(|(w, _)| *w == word).map(|(_, why)| Class::Matters(why))
 }
 
+/// Whether a word asks for what is so anyway, because nothing else has been carried out: absolute coordinates, or
+/// that something ends which never began.
+pub(super) fn already_so(word: &str, args: &[&str]) -> bool {
+    const ENDED: &[&str] =
+        &["OPSKIP", "SLOWDN", "CORNFD", "COUPLE", "POLYAX", "AIR", "TRACUT", "COPY", "INDEX", "PROBE"];
+    match word {
+        "MODE" | "SET" => {
+            matches!(args, ["MODE", "ABSOL"] | ["ABSOL"] | ["INCR", "OFF"] | ["MODE", "INCR", "OFF"])
+        }
+        _ => ENDED.contains(&word) && matches!(args, ["OFF" | "NOMORE"]),
+    }
+}
+
+/// The minor words that are understood, by major word.
+#[cfg(test)]
+pub(super) fn minor_words() -> Vec<(&'static str, Vec<&'static str>)> {
+    use super::{cycle, process, tool};
+    let feeds = process::PER_MINUTE.iter().chain(process::PER_REVOLUTION).map(|(w, _)| *w);
+    let cycles = [
+        cycle::DEPTH,
+        cycle::CLEARANCE,
+        cycle::RETURN,
+        cycle::PECK,
+        cycle::FIRST_PECK,
+        cycle::NEXT_PECKS,
+        cycle::FEEDS,
+        cycle::SILENT,
+        cycle::OTHER,
+        cycle::FINER,
+    ];
+    let kinds = cycle::KINDS.iter().flat_map(|(words, _)| *words);
+    vec![
+        ("FEDRAT", feeds.chain(process::FEED_SILENT.iter().copied()).chain(["RAPID"]).collect()),
+        ("SPINDL", process::SPEED_WORDS.iter().chain(process::SPINDLE_OFF).copied().collect()),
+        ("COOLNT", process::COOLANTS.iter().map(|(w, _)| *w).collect()),
+        ("CUTCOM", process::COMPENSATION.0.iter().chain(process::COMPENSATION.1).copied().collect()),
+        ("LOADTL", tool::OFFSETS.to_vec()),
+        ("CYCLE", cycles.into_iter().flatten().chain(kinds).copied().collect()),
+    ]
+}
+
 /// Words that the reader carries out, for "did you mean".
 pub(super) const CARRIED_OUT: &[&str] = &[
     "GOTO",

@@ -43,6 +43,7 @@ pub(super) struct Carry {
     stale: [i64; 4],
     feed: Option<Feed>,
     rpm: f64,
+    coolant: Coolant,
     operation: u32,
     told: usize,
     cycle: Option<Active>,
@@ -89,6 +90,7 @@ impl Carry {
             stale: [0; 4],
             feed: None,
             rpm: 0.0,
+            coolant: Coolant::Off,
             operation: 0,
             told: 0,
             cycle: None,
@@ -180,6 +182,7 @@ impl<'a> Emitter<'a> {
         self.stale = carry.stale;
         self.feed = carry.feed;
         self.rpm = carry.rpm;
+        self.coolant = carry.coolant;
         self.operation = carry.operation;
         self.told = carry.told;
         self.cycle = carry.cycle;
@@ -213,6 +216,7 @@ impl<'a> Emitter<'a> {
             stale: self.stale,
             feed: self.feed,
             rpm: self.rpm,
+            coolant: self.coolant,
             operation: self.operation,
             told: self.told + self.complaints.len(),
             cycle: self.cycle,

@@ -192,6 +192,8 @@ impl Analyser<'_> {
             "TRACUT" => self.tracut(m, span),
             "CLEARP" => self.state.clearance = m.number("height").unwrap_or(self.state.clearance),
             "CYCLE" => self.drill_cycle(m),
+            "CUTCOM" => self.cutcom(m),
+            "TLAXIS" => self.tool_axis(m),
             "DELAY" => self.step(StepKind::Dwell(m.number("time").unwrap_or(0.0))),
             "STOP" => self.step(StepKind::Stop),
             "OPSTOP" => self.step(StepKind::OptionalStop),

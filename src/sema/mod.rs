@@ -16,6 +16,7 @@ mod arithmetic;
 mod blocks;
 mod cam;
 mod circles;
+mod control;
 mod curves;
 mod cutter;
 mod cycle;

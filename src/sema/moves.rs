@@ -33,6 +33,9 @@ impl Analyser<'_> {
             return self.goto_pattern(m);
         }
         let Some(p) = Self::target(m) else { return };
+        if m.form == "axis" {
+            self.tool_axis(m);
+        }
         self.feed_of_move(m, span);
         self.move_to(p, m.word);
     }

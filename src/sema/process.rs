@@ -62,6 +62,10 @@ pub(super) struct State {
     pub rapid: bool,
     /// A drilling cycle is in force.
     pub cycle: bool,
+    /// `CUTCOM` has had its warning.
+    pub compensation_told: bool,
+    /// A tool axis off Z has had its error.
+    pub axis_told: bool,
     /// The cutter's position, mm, once it is known.
     pub position: Option<[f64; 3]>,
     /// `FROM` gave the position, and nothing has moved since.
@@ -97,6 +101,8 @@ impl Default for State {
             clearance: DEFAULT_CLEARANCE,
             rapid: false,
             cycle: false,
+            compensation_told: false,
+            axis_told: false,
             position: None,
             at_from: false,
             lost: false,

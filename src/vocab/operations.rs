@@ -1,11 +1,29 @@
 //! Point-to-point motion and operations.
 
 use super::{
-    Choices, EntityKind, Form, Group, Item, Kind, LENGTH, NOT_NEGATIVE, POSITIVE, Statement, Usage, choices,
-    form, optional, slot, value, with, word,
+    Choices, EntityKind, Form, Group, Item, Kind, LENGTH, NOT_NEGATIVE, POSITIVE, Range, Statement, Usage,
+    choices, form, optional, slot, value, with, word,
 };
+use crate::units::Dim;
 
 const FEED: Item = optional("feed", Kind::Feed, "feed from here on");
+
+const COMPONENT: Kind = Kind::Number(Dim::NONE, Range::Any);
+const AXIS_I: Item = value("i", COMPONENT, "of the tool axis in x");
+const AXIS_J: Item = value("j", COMPONENT, "of the tool axis in y");
+const AXIS_K: Item = value("k", COMPONENT, "of the tool axis in z");
+
+const TOOL_AXIS: &[Form] = &[
+    form("vector", "a vector", &[value("vector", Kind::Vector, "from the tool's tip to its holder")], &[]),
+    form("components", "its components", &[AXIS_I, AXIS_J, AXIS_K], &[]),
+];
+
+const MULTI_AXIS: &[Form] = &[form(
+    "state",
+    "",
+    &[],
+    &[choices("state", &[word("ON", "points may have a tool axis"), word("OFF", "they have none")], "ON")],
+)];
 
 const TO_POINT: &[Form] = &[
     form("point", "a point", &[value("point", Kind::Point, "where to"), FEED], &[]),
@@ -13,6 +31,12 @@ const TO_POINT: &[Form] = &[
         "coordinates",
         "coordinates",
         &[value("x", LENGTH, "x"), value("y", LENGTH, "y"), optional("z", LENGTH, "z; 0 without it"), FEED],
+        &[],
+    ),
+    form(
+        "axis",
+        "coordinates and tool axis, which must be Z",
+        &[value("x", LENGTH, "x"), value("y", LENGTH, "y"), value("z", LENGTH, "z"), AXIS_I, AXIS_J, AXIS_K],
         &[],
     ),
     Form {
@@ -96,6 +120,8 @@ pub const MOTION: &[Statement] = &[
     motion("GOTO", "straight to a point", "GOTO/ 10, 20, 5", TO_POINT),
     motion("GODLTA", "straight by increments", "GODLTA/ 0, 0, -5", BY_DELTA),
     motion("RAPID", "the next move is at rapid", "RAPID", &[]),
+    motion("MULTAX", "points may have a tool axis, which must be Z: the posts are for three axes", "MULTAX/ OFF", MULTI_AXIS),
+    motion("TLAXIS", "tool axis of the points that follow, which must be Z", "TLAXIS/ 0, 0, 1", TOOL_AXIS),
 ];
 
 const CUT: Choices = choices(

@@ -203,6 +203,32 @@ const COOLNT: &[Form] = &[form(
     &[],
 )];
 
+const PLANE: Choices = choices(
+    "plane",
+    &[word("XYPLAN", "the XY plane"), word("YZPLAN", "the YZ plane"), word("ZXPLAN", "the ZX plane")],
+    "XYPLAN",
+);
+
+const CUTCOM: &[Form] = &[
+    form("off", "switches it off", &[Item::Word("state", &[word("OFF", "none, G40")])], &[]),
+    form(
+        "on",
+        "asks for it; the path is written as the cutter's centre, with a warning",
+        &[
+            Item::Word(
+                "side",
+                &[
+                    word("LEFT", "cutter left of the contour, G41"),
+                    word("RIGHT", "cutter right of the contour, G42"),
+                    word("ON", "as before"),
+                ],
+            ),
+            optional("register", Kind::Count(0, 99_999_999), "number of the offset in the control"),
+        ],
+        &[PLANE],
+    ),
+];
+
 /// Wider bands than this, mm, are a mistake of the unit.
 const TOLERANCE: Kind = Kind::Number(Dim::LENGTH, Range::Within(0.0, 10.0));
 
@@ -359,6 +385,12 @@ pub const ROWS: &[Statement] = &[
         "drilling cycle: a GOTO after it drills, until CYCLE/ OFF",
         "CYCLE/ DRILL, FEDTO, 12, RAPTO, 2, MMPM, 120",
         CYCLE,
+    ),
+    row(
+        "CUTCOM",
+        "cutter compensation of the control; paths here are those of the cutter's centre and need none",
+        "CUTCOM/ OFF",
+        CUTCOM,
     ),
     row("DELAY", "dwells", "DELAY/ 2s", DELAY),
     row("STOP", "program stop, M0", "STOP", &[]),

@@ -143,6 +143,7 @@ pub const ROWS: &[Statement] = &[
     ignored("3DCALC", "chooses a solver"),
     ignored("AUTOPS", "part surface through the cutter's end"),
     ignored("NOPS", "no part surface"),
+    ignored("PSIS", "part surface of APT motion; points stand where they are given"),
     structure(
         "IF",
         "carries out what follows when the condition holds",

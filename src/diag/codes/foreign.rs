@@ -69,6 +69,9 @@ pub const NO_COMPENSATION: Code = Code {
     page: include_str!("../../../docs/diagnostics/W1010.md"),
 };
 
+/// What to do about [`NO_COMPENSATION`].
+pub const NO_COMPENSATION_HELP: &str = "if the points are the part's contour and not the cutter's centre, write the path of the centre instead: as it is, it cuts into the part by the radius";
+
 /// an arc does not go through its points.
 pub const ARC_NOT_TRUSTED: Code = Code {
     id: "W1011",

@@ -1,0 +1,242 @@
+//! The whole vocabulary, there and back: what every word says is printed as CL text and read again to the same records.
+
+use std::collections::BTreeSet;
+
+use super::{framed, read_as};
+use crate::cl::{Cl, RecordKind, print};
+use crate::clfile::{Producer, words};
+
+/// Records of every word, in a program that has moved already. A word without an example fails the test below.
+const EXAMPLES: &[(&str, &[&str])] = &[
+    ("GOTO", &["GOTO/ 1, 2, 3", "GOTO/ 1.5, -2.25, 3, 0, 0, 1", "GOTO/ 1, 2, 3, 450"]),
+    ("GODLTA", &["GODLTA/ 1, 2, 3", "GODLTA/ -4"]),
+    ("FROM", &["FROM/ 0, 0, 40"]),
+    ("GOHOME", &["GOHOME/ 0, 0, 60", "FROM/ 0, 0, 40\nGOTO/ 1, 1, 1\nGOHOME"]),
+    ("RAPID", &["RAPID\nGOTO/ 5, 5, 5\nGOTO/ 6, 6, 6", "RAPID/\nGOTO/ 5, 5, 5"]),
+    (
+        "FEDRAT",
+        &[
+            "FEDRAT/ 150, MMPM\nGOTO/ 1, 1, 1",
+            "FEDRAT/ IPM, 10\nGOTO/ 1, 1, 1",
+            "FEDRAT/ 1.5, FPM\nGOTO/ 1, 1, 1",
+            "FEDRAT/ PERMIN, 90, NOW\nGOTO/ 1, 1, 1",
+            "FEDRAT/ 0.4, MPM, NEXT\nGOTO/ 1, 1, 1",
+            "FEDRAT/ 75, UPM\nGOTO/ 1, 1, 1",
+            "FEDRAT/ 0.2, MMPR\nGOTO/ 1, 1, 1",
+            "FEDRAT/ IPR, 0.005\nGOTO/ 1, 1, 1",
+            "FEDRAT/ 0.1, PERREV\nGOTO/ 1, 1, 1",
+            "FEDRAT/ UPR, 0.15\nGOTO/ 1, 1, 1",
+            "FEDRAT/ RAPID\nGOTO/ 1, 1, 1",
+        ],
+    ),
+    (
+        "SPINDL",
+        &[
+            "SPINDL/ RPM, 900, CCLW\nGOTO/ 1, 1, 1",
+            "SPINDL/ 950, REVPM, CLW\nGOTO/ 1, 1, 1",
+            "CUTTER/ 10\nLOADTL/ 2\nSPINDL/ 60, SMM\nRAPID\nGOTO/ 1, 1, 1",
+            "CUTTER/ 10\nLOADTL/ 2\nSPINDL/ SFM, 200, MAXRPM, 8000\nRAPID\nGOTO/ 1, 1, 1",
+            "SPINDL/ 800, RANGE, 2\nGOTO/ 1, 1, 1",
+            "SPINDL/ 801, RANGE, LOW\nGOTO/ 1, 1, 1",
+            "SPINDL/ 802, RANGE, MEDIUM\nGOTO/ 1, 1, 1",
+            "SPINDL/ 803, HIGH\nGOTO/ 1, 1, 1",
+            "SPINDL/ OFF\nSPINDL/ ON\nGOTO/ 1, 1, 1",
+            "SPINDL/ STOP",
+        ],
+    ),
+    (
+        "COOLNT",
+        &["COOLNT/ ON", "COOLNT/ FLOOD\nCOOLNT/ OFF", "COOLNT/ MIST\nGOTO/ 1, 1, 1\nCOOLNT/ OFF", "COOLNT"],
+    ),
+    (
+        "CYCLE",
+        &[
+            "CYCLE/ DRILL, FEDTO, 12, RAPTO, 2, RTRCTO, 20, MMPM, 120\nGOTO/ 1, 1, 0\nGOTO/ 2, 1, 0\nCYCLE/ OFF",
+            "CYCLE/ DRILL, DEPTH, 12, CLEAR, 2, RETURN, 20, IPM, 5\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
+            "CYCLE/ DRILL, DEPTH, 12, CLEARP, 2, RETRCT, 20, PERMIN, 50\nGOTO/ 1, 1, 0\nCYCLE/ NOMORE",
+            "CYCLE/ THRU, FEDTO, 12, RAPTO, 2, RTRCTO, AUTO, MMPM, 120\nGOTO/ 1, 1, 0\nGOTO/ 1, 4, 0\nCYCLE/ OFF",
+            "CYCLE/ CSINK, FEDTO, 2, RAPTO, 2, RTRCTO, NONE, MMPM, 120\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
+            "CYCLE/ SPOTDR, FEDTO, 2, RAPTO, 2, RETURN, ON, MMPM, 120\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
+            "CYCLE/ DRILL, CSINK, FEDTO, 2, RAPTO, 2, MMPM, 120, DWELL, 0.5\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
+            "CYCLE/ FACE, FEDTO, 2, RAPTO, 2, MMPR, 0.1, DWELL, 1\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
+            "CYCLE/ SPOTFC, FEDTO, 2, RAPTO, 2, IPR, 0.004, DWELL, REV, 3\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
+            "CYCLE/ SPTFAC, FEDTO, 2, RAPTO, 2, PERREV, 0.1, REV, 4\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
+            "CYCLE/ CBORE, FEDTO, 2, RAPTO, 2, MMPM, 50\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
+            "CYCLE/ COUNTR, FEDTO, 2, RAPTO, 2, MMPM, 50\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
+            "CYCLE/ DRILL, FACE, FEDTO, 2, RAPTO, 2, MMPM, 50\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
+            "CYCLE/ DRILL, CBORE, FEDTO, 2, RAPTO, 2, MMPM, 50\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
+            "CYCLE/ DEEP, FEDTO, 20, STEP, 4, RAPTO, 2, MMPM, 50\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
+            "CYCLE/ DEEP2, FEDTO, 20, 1STPECK, 5, SUBPECK, 2, RAPTO, 2, MMPM, 50\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
+            "CYCLE/ DEEPHL, 20, 50, MMPM, 2, INCR, 4\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
+            "CYCLE/ PECK, FEDTO, 20, PECK, 4, RAPTO, 2, MMPM, 50\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
+            "CYCLE/ DRILL, DEEP, FEDTO, 20, STEP1, 5, STEP2, 4, STEP3, 3, STEP4, 3, STEP5, 2, STEP6, 2, STEP7, 1, \
+             RAPTO, 2, MMPM, 50\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
+            "CYCLE/ BRKCHP, FEDTO, 20, INCREM, 4, RAPTO, 2, MMPM, 50\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
+            "CYCLE/ BRKCHIP, FEDTO, 20, STEP, 4, RAPTO, 2, MMPM, 50\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
+            "CYCLE/ BREAK, FEDTO, 20, STEP, 4, RAPTO, 2, MMPM, 50\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
+            "CYCLE/ CHPBRK, FEDTO, 20, STEP, 4, RAPTO, 2, MMPM, 50\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
+            "CYCLE/ CHIP, FEDTO, 20, STEP, 4, RAPTO, 2, MMPM, 50\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
+            "CYCLE/ DRILL, BRKCHP, FEDTO, 20, STEP, 4, RAPTO, 2, MMPM, 50\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
+            "CYCLE/ TAP, FEDTO, 12, PITCH, 1.25, RAPTO, 2\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
+            "CYCLE/ TAP, FEDTO, 12, MMPR, 1.25, RAPTO, 2, LEFT\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
+            "CYCLE/ TAP, FIX, FEDTO, 12, MMPM, 1500, RAPTO, 2, CCLW\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
+            "CYCLE/ TAP, FLOAT, FEDTO, 12, MMPM, 1500, RAPTO, 2, CLW\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
+            "CYCLE/ TAP, RIGID, SYNC, FEDTO, 12, MMPM, 1500, RAPTO, 2, RPM\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
+            "CYCLE/ DRILL, TAP, ON, TOOL, FEDTO, 12, MMPR, 1, RAPTO, 2\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
+            "CYCLE/ BORE, DRAG, FEDTO, 12, MMPM, 60, RAPTO, 2\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
+            "CYCLE/ BORE, NODRAG, 0.5, FEDTO, 12, MMPM, 60, RAPTO, 2\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
+            "CYCLE/ BORE, ORIENT, 0.5, FEDTO, 12, MMPM, 60, RAPTO, 2\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
+            "CYCLE/ REAM, FEDTO, 12, MMPM, 60, RAPTO, 2, DWELL, 1\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
+            "CYCLE/ DRILL, REAM, FEDTO, 12, MMPM, 60, RAPTO, 2\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
+        ],
+    ),
+    (
+        "CIRCLE",
+        &[
+            "CIRCLE/ 0, 0, 5, 0, 0, 1, 10\nGOTO/ 0, 10, 5",
+            "CIRCLE/ 0, 0, 5, 0, 0, -1\nGOTO/ 10, 0, 5",
+            "CIRCLE/ 0, 0, 5, 0, 0, 1, 10, 0.06, 0.5, 12, 1, TIMES, 3\nGOTO/ 0, 10, -5",
+            "CIRCLE/ 0, 0, 5, 0, 1, 0, 10\nGOTO/ 0, 0, -5",
+        ],
+    ),
+    (
+        "CUTTER",
+        &[
+            "CUTTER/ 12, 1\nLOADTL/ 3\nRAPID\nGOTO/ 1, 1, 1",
+            "CUTTER/ 12, 2, 4, 2, 10, 5, 60\nLOADTL/ 3\nRAPID\nGOTO/ 1, 1, 1",
+            "CUTTER/ DISPLY, SHANK, 8, 40",
+        ],
+    ),
+    (
+        "TLDATA",
+        &[
+            "TLDATA/ MILL, 12, 1, 50, 0, 0\nLOADTL/ 3\nRAPID\nGOTO/ 1, 1, 1",
+            "TLDATA/ DRILL, MILL, 8, 0, 90, 118, 60\nLOADTL/ 3\nRAPID\nGOTO/ 1, 1, 1",
+        ],
+    ),
+    (
+        "LOADTL",
+        &[
+            "LOADTL/ 4, ADJUST, 4, LENGTH, 120\nRAPID\nGOTO/ 1, 1, 1",
+            "LOADTL/ 4, OSETNO, 4\nRAPID\nGOTO/ 1, 1, 1",
+            "LOADTL/ 4, ZOFF, 4, SPINDL, 70, MILL\nRAPID\nGOTO/ 1, 1, 1",
+        ],
+    ),
+    ("LOAD", &["LOAD/ TOOL, 5, ADJUST, 5\nRAPID\nGOTO/ 1, 1, 1"]),
+    ("TOOLNO", &["TOOLNO/ 6, 12\nRAPID\nGOTO/ 1, 1, 1"]),
+    ("DELAY", &["DELAY/ 1.5", "DELAY/ REV, 10"]),
+    ("DWELL", &["DWELL/ 0.25"]),
+    ("STOP", &["STOP"]),
+    ("OPSTOP", &["OPSTOP"]),
+    ("END", &["GOTO/ 1, 1, 1\nEND"]),
+    ("FINI", &["GOTO/ 1, 1, 1\nFINI"]),
+    ("UNITS", &["UNITS/ MM"]),
+    ("UNIT", &["UNIT/ MM"]),
+    ("INTOL", &["INTOL/ 0.02\nCIRCLE/ 0, 0, 5, 0, 0, 1, 10\nGOTO/ 0, 10, 5"]),
+    ("OUTTOL", &["OUTTOL/ 0.03\nCIRCLE/ 0, 0, 5, 0, 0, 1, 10\nGOTO/ 0, 10, 5"]),
+    ("TOLER", &["TOLER/ 0.05\nCIRCLE/ 0, 0, 5, 0, 0, 1, 10\nGOTO/ 0, 10, 5"]),
+    ("MULTAX", &["MULTAX/ ON\nGOTO/ 1, 1, 1, 0, 0, 1\nMULTAX/ OFF"]),
+    ("TLAXIS", &["TLAXIS/ 0, 0, 1\nGOTO/ 1, 1, 1"]),
+    ("CUTCOM", &["CUTCOM/ LEFT, XYPLAN\nGOTO/ 1, 1, 1\nCUTCOM/ OFF", "CUTCOM/ RIGHT", "CUTCOM/ ON"]),
+    ("MSYS", &["MSYS/ 0, 0, 0, 1, 0, 0, 0, 1, 0"]),
+    ("CSYS", &["CSYS/ 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0"]),
+    ("TRNTYP", &["TRNTYP/ WORLD, 0, 0, 0"]),
+    ("NURBS", &["NURBS/\nKNOT/ 0.5, 1\nCNTRL/ 10, 5, 5\nCNTRL/ 20, 5, 5\nCNTRL/ 20, 20, 5\nCNTRL/ 30, 30, 5"]),
+    ("KNOT", &["NURBS/\nKNOT/ 1\nCNTRL/ 10, 5, 5\nCNTRL/ 20, 5, 5\nCNTRL/ 20, 20, 5"]),
+    ("CNTRL", &["NURBS/\nKNOT/ 1\nCNTRL/ 11, 0, 5\nCNTRL/ 12, 0, 5\nCNTRL/ 13, 0, 5"]),
+    ("INDIRV", &["INDIRV/ 0, 1, 0\nTLON,GOFWD/ (CIRCLE/ 0, 0, 5, 10),ON,(LINE/ 0, 0, 5, 0, 10, 5)"]),
+    (
+        "PSIS",
+        &["PSIS/ (PLANE/ (POINT/ 0, 0, 5), PERPTO, (VECTOR/ 0, 0, 1))\nINDIRV/ 0, -1, 0\n\
+           TLON,GOFWD/ (CIRCLE/ 0, 0, 5, 10),ON,2,INTOF,(LINE/ 0, 0, 5, 10, 0, 5)"],
+    ),
+    ("TLON", &["INDIRV/ 0, 1, 0\nTLON,GOFWD/ (CYLNDR/ 0, 0, 5, 0, 0, 1, 10),ON,(LINE/ 0, 0, 5, 0, 10, 5)"]),
+    ("HELICAL", &["HELICAL/ 0, 0, 5, 0, 1, 0, 0, 0, 1, 2, 10, 10, 0, 0"]),
+    ("END-OF-PATH", &["GOTO/ 1, 1, 1\nEND-OF-PATH\nGOTO/ 2, 2, 2"]),
+    ("PARTNO", &["PARTNO/ SECOND"]),
+    ("PPRINT", &["PPRINT CHECK THE CLAMPS", "PPRINT/ TURN $ OVER"]),
+    ("TPRINT", &["TPRINT/ T1 END MILL"]),
+    ("INSERT", &["INSERT M60"]),
+    ("REMARK", &["REMARK nothing"]),
+];
+
+/// Numbers of a text to a nanometre.
+fn rounded(text: &str) -> String {
+    let mut out = String::new();
+    let mut number = String::new();
+    for c in text.chars().chain(['\n']) {
+        if c.is_ascii_digit() || matches!(c, '.' | '-') || (c == 'e' && !number.is_empty()) {
+            number.push(c);
+            continue;
+        }
+        match number.parse::<f64>() {
+            Ok(value) => out += &format!("{}", (value * 1e6).round() / 1e6 + 0.0),
+            Err(_) => out += &number,
+        }
+        number.clear();
+        out.push(c);
+    }
+    out
+}
+
+/// Everything a record says, tools by their data and not by their place.
+fn said(cl: &Cl) -> Vec<String> {
+    cl.records
+        .iter()
+        .map(|record| match &record.kind {
+            RecordKind::LoadTool(tool) => {
+                let t = &cl.tools[*tool];
+                let profile = t.profile.map(|v| (v * 1e6).round() / 1e6);
+                format!("tool {:?} {} {} {profile:?}", t.number, t.diameter, t.corner)
+            }
+            RecordKind::BeginOperation(index) => format!("begin {}", cl.operations[*index as usize].name),
+            kind => rounded(&format!("{kind:?}")),
+        })
+        .collect()
+}
+
+#[test]
+fn every_word_is_written_as_it_was_read() {
+    for (word, examples) in EXAMPLES {
+        for example in *examples {
+            let (first, codes) = read_as(&framed(example), Some(Producer::Plain), false);
+            let errors: Vec<_> = codes.iter().filter(|c| c.starts_with('E')).collect();
+            assert!(errors.is_empty(), "{word}: {example}: {errors:?}");
+            let text = print::print(&first);
+            let (second, codes) = read_as(&text, Some(Producer::Plain), false);
+            assert!(codes.iter().all(|c| !c.starts_with('E')), "{word}: {codes:?} in\n{text}");
+            assert_eq!(print::print(&second), text, "{word}: {example}");
+            assert_eq!(said(&second), said(&first), "{word}: {example}\n{text}");
+        }
+    }
+}
+
+#[test]
+fn every_word_has_an_example() {
+    let majors: BTreeSet<&str> = EXAMPLES.iter().map(|(word, _)| *word).collect();
+    let wanted: BTreeSet<&str> = words::CARRIED_OUT.iter().copied().collect();
+    assert_eq!(majors, wanted);
+    for (major, minors) in words::minor_words() {
+        let (_, examples) = EXAMPLES.iter().find(|(word, _)| *word == major).expect("an example");
+        let said: BTreeSet<&str> = examples
+            .iter()
+            .flat_map(|e| e.lines())
+            .filter_map(|line| line.strip_prefix(major))
+            .flat_map(|rest| rest.split([',', '/']))
+            .map(str::trim)
+            .collect();
+        let forgotten: Vec<_> = minors.into_iter().filter(|m| !said.contains(m)).collect();
+        assert!(forgotten.is_empty(), "{major}: no example with {forgotten:?}");
+    }
+}
+
+#[test]
+fn nothing_is_carried_out_without_being_in_the_vocabulary() {
+    // The other way round: what the reader does not refuse as unknown is listed.
+    for (word, examples) in EXAMPLES {
+        let (_, codes) = read_as(&framed(examples[0]), Some(Producer::Plain), false);
+        assert!(!codes.contains(&"E1001"), "{word}");
+    }
+    let (_, codes) = read_as(&framed("FOOBAR/ 1"), Some(Producer::Plain), false);
+    assert_eq!(codes, ["E1001"]);
+}
