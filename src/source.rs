@@ -76,7 +76,10 @@ impl SourceMap {
     /// Adds a file and returns its handle.
     pub fn add(&mut self, name: impl Into<String>, text: impl Into<Arc<str>>) -> FileId {
         let text: Arc<str> = text.into();
-        let starts = text.bytes().enumerate().filter(|&(_, b)| b == b'\n');
+        let bytes = text.as_bytes();
+        // LF, CR LF, or CR alone.
+        let ends = |i: usize, b: u8| b == b'\n' || b == b'\r' && bytes.get(i + 1) != Some(&b'\n');
+        let starts = text.bytes().enumerate().filter(|&(i, b)| ends(i, b));
         let line_starts = core::iter::once(0)
             .chain(starts.map(|(i, _)| u32::try_from(i + 1).unwrap_or(u32::MAX)))
             .collect();

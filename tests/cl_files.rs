@@ -157,3 +157,84 @@ fn a_program_drills_as_a_cl_file_does() {
     let deep = build("CYCLE/ DEEP, FEDTO, 6, RAPTO, 2", "fanuc");
     assert!(deep.has_errors() && messages(&deep).contains("peck"), "{}", messages(&deep));
 }
+
+#[test]
+fn cl_text_of_either_flavour_is_read_to_the_same_text() {
+    let write = |name: &str, text: String, flavour: &str| {
+        let files = MemoryFiles([(name.to_owned(), text)].into());
+        let post_set = vec![("options.FLAVOUR".to_owned(), flavour.to_owned())];
+        let build = driver::build(name, &files, &Options { post_set, ..options(&["apt-cl"], false) });
+        let proven = build.outputs.first().and_then(|o| o.proven.as_ref());
+        proven.unwrap_or_else(|| panic!("{name}, {flavour}: {}", messages(&build))).text().to_owned()
+    };
+    for name in files() {
+        let text = std::fs::read_to_string(folder().join(&name)).expect("a text");
+        for (flavour, again) in [("plain", "again.cl"), ("nx", "again.cls")] {
+            let first = write(&name, text.clone(), flavour);
+            assert_eq!(first.contains("TOOL PATH/"), flavour == "nx");
+            let second = write(again, first.clone(), flavour);
+            assert_eq!(first, second, "{name}, {flavour}");
+        }
+    }
+}
+
+#[test]
+fn hostile_texts_give_a_coded_error_or_a_proven_program() {
+    let frame = |body: &str| {
+        format!(
+            "LOADTL/1\nSPINDL/1000,RPM,CLW\nFEDRAT/200,MMPM\nRAPID\nGOTO/10,0,5\n{body}\nGOTO/1,1,1\nFINI\n"
+        )
+    };
+    let mut texts: Vec<String> = [
+        "GOTO/1,\0 2,3",
+        "PPRINT A\0B",
+        "PPRINT ) M3 S9000 ( %",
+        "PARTNO ) G0 Z-100 (",
+        "PPRINT A\u{b}B\u{c}C\u{85}D\u{2028}G0 Z-50",
+        "INSERT )%\0",
+        "GOTO/1e308,1e308,1e308",
+        "GOTO/1e999,2,3",
+        "GOTO/inf,nan,3",
+        "FEDRAT/1e300,MMPM",
+        "SPINDL/1e300,RPM",
+        "DELAY/1e300",
+        "CIRCLE/10,0,5,0,0,1,0\nGOTO/10,0,5",
+        "CIRCLE/0,1e8,5,0,0,1,1e8\nGOTO/-10,0,5",
+        "CYCLE/DEEP,FEDTO,1e6,STEP,1e-6,MMPM,100,RAPTO,2\nGOTO/1,1,0\nCYCLE/OFF",
+        "NURBS/\nKNOT/nan,1\nCNTRL/1,2,3",
+        "NURBS/\nKNOT/1\nCNTRL/1e6,2,3\nCNTRL/-1e6,2e6,3\nCNTRL/1,2,3",
+        "PPRINT 'not ended \" (",
+        "\u{c}GOTO/2,2,2",
+        "GOTO/2,2,2\u{b}",
+    ]
+    .map(frame)
+    .into();
+    texts.push(frame(&"(".repeat(200_000)));
+    texts.push(frame(&format!("TLON,GOFWD/{}", "(".repeat(200_000))));
+    texts.push(frame(&"A".repeat(2_000_000)));
+    texts.push(frame(&format!("GOTO/{},2,3", "1".repeat(1_000_000))));
+    texts.push(frame(&"GOTO/5,5,5\n".repeat(40_000)));
+    texts.push(format!("\u{feff}{}", frame("")));
+    let tools = (1..600).map(|i| {
+        format!(
+            "TOOL PATH/A)%{i},TOOL,B)%{i}\nLOAD/TOOL,{i}\nSPINDL/900,CLW\nRAPID\nGOTO/0,0,9\nGOTO/1,0,0\n"
+        )
+    });
+    texts.push(format!("FEDRAT/100\n{}", tools.collect::<String>()));
+    for text in texts {
+        let shown: String = text.chars().skip(74).take(60).collect();
+        let files = MemoryFiles([("hostile.cl".to_owned(), text)].into());
+        let build = driver::build("hostile.cl", &files, &options(&["fanuc", "heidenhain", "apt-cl"], true));
+        for output in &build.outputs {
+            match &output.proven {
+                // Nobody's text opens or ends a program.
+                Some(proven) if output.post == "fanuc" => {
+                    assert_eq!(proven.text().matches('%').count(), 2, "{shown}")
+                }
+                Some(_) => {}
+                None => assert!(build.has_errors(), "{shown}"),
+            }
+        }
+        assert!(build.has_errors() || !build.outputs.is_empty(), "{shown}");
+    }
+}

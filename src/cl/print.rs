@@ -29,7 +29,7 @@ const MAX_CHORDS: u32 = 100_000;
 /// The whole program.
 #[must_use]
 pub fn print(cl: &Cl) -> String {
-    let mut printer = Printer { out: String::new(), cl, scale: cl.units.in_mm() };
+    let mut printer = Printer { out: String::new(), cl, scale: cl.units.in_mm(), tolerance: None };
     printer.program();
     printer.out
 }
@@ -38,7 +38,7 @@ pub fn print(cl: &Cl) -> String {
 #[must_use]
 pub fn records(cl: &Cl) -> Vec<String> {
     let one = |record: &Record| {
-        let mut printer = Printer { out: String::new(), cl, scale: cl.units.in_mm() };
+        let mut printer = Printer { out: String::new(), cl, scale: cl.units.in_mm(), tolerance: None };
         printer.record(record);
         printer.out
     };
@@ -59,6 +59,8 @@ struct Printer<'a> {
     out: String,
     cl: &'a Cl,
     scale: f64,
+    /// Tolerance of arcs that the text has given last, mm.
+    tolerance: Option<f64>,
 }
 
 impl Printer<'_> {
@@ -116,6 +118,8 @@ impl Printer<'_> {
     }
 
     fn tolerance(&mut self, operation: &Operation) {
+        let least = operation.band.into.min(operation.band.out);
+        self.tolerance = Some(if least > 0.0 { least } else { operation.band.into.max(operation.band.out) });
         let (into, out) = (self.length(operation.band.into), self.length(operation.band.out));
         self.line(format_args!("INTOL/ {into}"));
         self.line(format_args!("OUTTOL/ {out}"));
@@ -177,6 +181,10 @@ impl Printer<'_> {
 
     /// An arc or helix: centre, axis, radius; `TIMES, n` for n - 1 full turns more; then its end.
     fn arc(&mut self, circle: &Circle) {
+        if self.tolerance.is_some_and(|t| (t - circle.tolerance).abs() > 1e-12) {
+            self.tolerance = Some(circle.tolerance);
+            self.line(format_args!("TOLER/ {}", self.length(circle.tolerance)));
+        }
         let (x, y, z) =
             (self.length(circle.centre.x), self.length(circle.centre.y), self.length(circle.centre.z));
         let (i, j, k) = (number(circle.axis.x), number(circle.axis.y), number(circle.axis.z));

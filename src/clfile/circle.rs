@@ -64,7 +64,11 @@ impl Reader<'_> {
         if !(length > 0.0 && length.is_finite()) {
             return self.complain(&codes::BAD_RECORD, "the circle's axis has no length".to_owned());
         }
-        let times = s.after("TIMES").unwrap_or(1.0).clamp(1.0, MOST_TURNS);
+        let times = s.after("TIMES").unwrap_or(1.0);
+        if !(1.0..=MOST_TURNS).contains(&times) || times.fract() != 0.0 {
+            let message = format!("CIRCLE with TIMES, {times}: a whole number of 1 to {MOST_TURNS}");
+            return self.complain(&codes::BAD_RECORD, message);
+        }
         let radius = rest.first().filter(|_| !s.has("TIMES") || rest.len() > 1);
         self.state.circle = Some(Pending {
             centre,
@@ -100,6 +104,7 @@ impl Reader<'_> {
         }
         let first = self.state.circle.as_ref().is_some_and(|c| c.points.is_empty());
         self.flush_circle();
+        self.state.circle = None;
         if first {
             let off = (r - wanted).abs().max((r0 - wanted).abs()).max((h - h0).abs());
             let off = self.show(off);
@@ -109,8 +114,20 @@ impl Reader<'_> {
         self.move_to(to);
     }
 
-    /// The arc over the points gathered, if any.
+    /// The arc over the points gathered; a circle without points is none.
+    pub(super) fn end_circle(&mut self) {
+        self.flush_circle();
+        if self.state.circle.take().is_some() {
+            let message = "a CIRCLE without a point after it: where its arc ends is not known";
+            self.complain(&codes::BAD_RECORD, message.to_owned());
+        }
+    }
+
+    /// The arc over the points gathered; a circle without points waits on.
     pub(super) fn flush_circle(&mut self) {
+        if self.state.circle.as_ref().is_none_or(|pending| pending.points.is_empty()) {
+            return;
+        }
         let Some(mut pending) = self.state.circle.take() else { return };
         let (Some(start), Some(&first), Some(&last)) =
             (self.state.at, pending.points.first(), pending.points.last())

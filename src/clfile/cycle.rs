@@ -19,6 +19,9 @@ pub(super) struct Asked {
     open: Option<f64>,
 }
 
+/// Longest dwell of a cycle, s.
+const LONGEST_DWELL: f64 = 99_999.0;
+
 /// Where the tool goes after a hole.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Return {
@@ -51,7 +54,8 @@ pub(super) const FIRST_PECK: &[&str] = &["1STPECK", "STEP1"];
 /// Pecks of NX, from the first on: the smallest of the further ones is taken for all of them.
 pub(super) const NEXT_PECKS: &[&str] = &["STEP2", "STEP3", "STEP4", "STEP5", "STEP6", "STEP7"];
 pub(super) const FEEDS: &[&str] = &["MMPM", "IPM", "MMPR", "IPR", "PERMIN", "PERREV"];
-pub(super) const SILENT: &[&str] = &["ON", "TOOL", "SYNC", "AUTO", "NONE", "THRU", "RPM", "CLW", "FIX", "FLOAT", "RIGID"];
+pub(super) const SILENT: &[&str] =
+    &["ON", "TOOL", "SYNC", "AUTO", "NONE", "THRU", "RPM", "CLW", "FIX", "FLOAT", "RIGID"];
 /// Other words, with a number or without.
 pub(super) const OTHER: &[&str] = &["DWELL", "REV", "PITCH", "LEFT", "CCLW", "DRAG", "NODRAG", "ORIENT"];
 /// Kinds of cycle by what they do.
@@ -96,7 +100,10 @@ impl Reader<'_> {
         self.leave_cycle();
         match self.asked(word, s) {
             Ok(asked) => self.state.cycle = Some(asked),
-            Err(message) => self.complain(&codes::BAD_CYCLE, message),
+            Err(message) => {
+                self.state.cycle_failed = true;
+                self.complain(&codes::BAD_CYCLE, message);
+            }
         }
     }
 
@@ -106,13 +113,16 @@ impl Reader<'_> {
         self.known_words(word, s)?;
         let bare = bare_numbers(s);
         let depth = value(DEPTH).or_else(|| bare.first().map(|v| v * scale)).map(f64::abs);
-        let depth = depth.filter(|d| *d > 0.0).ok_or("the cycle has no depth: FEDTO or DEPTH")?;
+        let depth = depth.ok_or("the cycle has no depth: FEDTO or DEPTH")?;
+        if depth.is_nan() || depth <= 0.0 {
+            return Err("the cycle's depth is 0: it would drill nothing".to_owned());
+        }
         let spare = if value(DEPTH).is_some() { 0 } else { 1 };
         let last = bare.get(spare..).and_then(<[f64]>::last).map(|v| v * scale);
         let clearance = value(CLEARANCE).or(last).filter(|c| *c >= 0.0);
         let clearance = clearance.ok_or("the cycle has no clearance: RAPTO or CLEAR")?;
         let (feed, own_feed) = self.cycle_feed(s);
-        let dwell = self.cycle_dwell(s);
+        let dwell = self.cycle_dwell(s)?;
         let word = s.words().skip(1).find(|w| FINER.contains(w)).unwrap_or(word);
         let kind = self.kind(word, s, dwell, feed)?;
         let (peck, first_peck) = pecks(s, scale);
@@ -125,8 +135,7 @@ impl Reader<'_> {
             None if begin => Return::Begin,
             None => Return::Clearance,
         };
-        let retract =
-            if return_to == Return::Clearance { RetractTo::Clearance } else { RetractTo::Initial };
+        let retract = if return_to == Return::Clearance { RetractTo::Clearance } else { RetractTo::Initial };
         let feed = feed.unwrap_or(Feed::PerMinute(0.0));
         let cycle = Cycle { kind, depth, clearance, retract, peck, first_peck, dwell, feed };
         Ok(Asked { cycle, return_to, own_feed, open: None })
@@ -188,8 +197,9 @@ impl Reader<'_> {
 
     fn cycle_feed(&mut self, s: &Statement) -> (Option<Feed>, bool) {
         for word in FEEDS {
-            // Behind its word, or two bare numbers before it: depth and feed.
-            let value = s.after(word).filter(|v| *v > 0.0).or_else(|| before(s, word));
+            // Depth and feed before their unit, or the feed behind it.
+            let at = s.args.iter().position(|a| matches!(a, Arg::Word(w) if w == word));
+            let value = at.and_then(|at| feed_before(s, at)).or_else(|| s.after(word).filter(|v| *v > 0.0));
             if let Some(value) = value {
                 return (self.feed_of(value, &[word]), true);
             }
@@ -197,13 +207,17 @@ impl Reader<'_> {
         (self.state.feed, false)
     }
 
-    fn cycle_dwell(&self, s: &Statement) -> Option<f64> {
+    fn cycle_dwell(&self, s: &Statement) -> Result<Option<f64>, String> {
         let seconds = match (s.after("DWELL"), s.after("REV"), self.state.spindle) {
             (Some(seconds), ..) => seconds,
             (None, Some(turns), Some(Spindle::On { rpm, .. })) => turns * 60.0 / rpm,
-            _ => return None,
+            (None, Some(_), _) => return Err("revolutions of dwell need a turning spindle".to_owned()),
+            _ => return Ok(None),
         };
-        (seconds > 0.0 && seconds < 1e6).then_some(seconds)
+        if !(0.0..=LONGEST_DWELL).contains(&seconds) {
+            return Err(format!("a dwell of {seconds} s is not between 0 and {LONGEST_DWELL}"));
+        }
+        Ok(Some(seconds).filter(|s| *s > 0.0))
     }
 
     /// A point while a cycle is in force.
@@ -270,6 +284,7 @@ impl Reader<'_> {
     pub(super) fn leave_cycle(&mut self) {
         self.close_cycle();
         self.state.cycle = None;
+        self.state.cycle_failed = false;
     }
 }
 
@@ -290,27 +305,30 @@ fn word_after<'s>(s: &'s Statement, wanted: &str) -> Option<&'s str> {
     })
 }
 
-/// Numbers that stand behind no word, or behind the kind: depth, and clearance at the end.
+/// Numbers that belong to no word, or stand behind the kind: depth, and clearance at the end.
 fn bare_numbers(s: &Statement) -> Vec<f64> {
     let mut out = Vec::new();
     let mut taken = true;
     for (index, arg) in s.args.iter().enumerate() {
         match arg {
+            Arg::Number(_) if feed_before(s, index + 1).is_some() => taken = false,
             Arg::Number(v) if !taken || index == 1 => {
                 out.push(*v);
                 taken = false;
             }
             // The number behind a word is the word's.
             Arg::Number(_) => taken = false,
-            _ => taken = true,
+            _ => taken = feed_before(s, index).is_none(),
         }
     }
     out
 }
 
-/// The second of two bare numbers before a word.
-fn before(s: &Statement, word: &str) -> Option<f64> {
-    let at = s.args.iter().position(|a| matches!(a, Arg::Word(w) if w == word))?;
+/// The second of two numbers before the unit of feed at this place: depth, feed, unit.
+fn feed_before(s: &Statement, at: usize) -> Option<f64> {
+    if !matches!(s.args.get(at)?, Arg::Word(w) if FEEDS.contains(&w.as_str())) {
+        return None;
+    }
     match (s.args.get(at.checked_sub(2)?)?, s.args.get(at.checked_sub(1)?)?) {
         (Arg::Number(_), Arg::Number(feed)) => Some(*feed),
         _ => None,

@@ -45,10 +45,16 @@ impl<'t> Lines<'t> {
     pub fn line(&mut self) -> Option<(&'t str, usize)> {
         let start = self.at;
         let rest = self.text.get(start..).filter(|r| !r.is_empty())?;
-        let length = memchr::memchr(b'\n', rest.as_bytes());
-        self.at = start + length.map_or(rest.len(), |l| l + 1);
-        let line = rest.get(..length.unwrap_or(rest.len()))?;
-        Some((line.strip_suffix('\r').unwrap_or(line), start))
+        // Lines end with LF, CR LF, or CR alone.
+        let length = memchr::memchr2(b'\n', b'\r', rest.as_bytes());
+        let end = length.unwrap_or(rest.len());
+        let mark = match rest.as_bytes().get(end..) {
+            Some([b'\r', b'\n', ..]) => 2,
+            Some([_, ..]) => 1,
+            _ => 0,
+        };
+        self.at = start + end + mark;
+        Some((rest.get(..end)?, start))
     }
 
     /// The piece that starts with this line.

@@ -28,7 +28,8 @@ impl Reader<'_> {
     }
 
     fn point_to(&mut self, to: Point3) {
-        if self.off_axis() {
+        if self.off_axis() || self.state.cycle_failed {
+            self.state.circle = None;
             self.state.at = Some(to);
             self.state.rapid = false;
         } else if self.state.circle.is_some() {

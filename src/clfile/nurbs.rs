@@ -15,6 +15,9 @@ const MOST_POINTS: usize = 1_000_000;
 /// Halvings of one segment at most.
 const DEEPEST: u32 = 16;
 
+/// Finest tolerance, mm: a tenth of the step that controls count in.
+const FINEST: f64 = 1e-4;
+
 /// A curve being read.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Spans {
@@ -51,7 +54,7 @@ impl Reader<'_> {
     /// Says once what became of all curves.
     pub(super) fn report_curves(&mut self) {
         let Some((span, curves, lines)) = self.state.flattened.take() else { return };
-        let tolerance = self.show(self.state.tolerance());
+        let tolerance = self.show(self.state.tolerance().max(FINEST));
         let message = format!("{curves} curves (NURBS) are cut by {lines} lines, at most {tolerance} off");
         self.tell(Diagnostic::new(&codes::CURVE_AS_LINES, span, message));
     }
@@ -86,7 +89,7 @@ impl Reader<'_> {
         full.extend([1.0; 3]);
         let mut control = vec![start];
         control.extend(spans.points);
-        let tolerance = self.state.tolerance();
+        let tolerance = self.state.tolerance().max(FINEST);
         let mut ends = Vec::new();
         for span in 3..control.len() {
             let (a, b) = (full[span], full[span + 1]);

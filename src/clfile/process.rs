@@ -21,12 +21,8 @@ pub(super) const SPEED_WORDS: &[&str] =
 /// Words that stop the spindle.
 pub(super) const SPINDLE_OFF: &[&str] = &["OFF", "STOP"];
 /// Words of the coolant.
-pub(super) const COOLANTS: &[(&str, Coolant)] = &[
-    ("ON", Coolant::Flood),
-    ("FLOOD", Coolant::Flood),
-    ("MIST", Coolant::Mist),
-    ("OFF", Coolant::Off),
-];
+pub(super) const COOLANTS: &[(&str, Coolant)] =
+    &[("ON", Coolant::Flood), ("FLOOD", Coolant::Flood), ("MIST", Coolant::Mist), ("OFF", Coolant::Off)];
 /// Words that ask for compensation in the control, and that it ends.
 pub(super) const COMPENSATION: (&[&str], &[&str]) = (&["LEFT", "RIGHT", "ON"], &["OFF"]);
 
@@ -273,6 +269,7 @@ impl Reader<'_> {
 
     fn flush_tool_if_waiting(&mut self) {
         if self.state.load.is_some() {
+            self.begin_operation();
             self.flush_tool();
         }
     }

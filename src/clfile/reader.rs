@@ -10,7 +10,7 @@ use super::words::{self, Class};
 use super::{Options, Producer, producer};
 use crate::arena::{Arena, Handle};
 use crate::cl::{Cl, Operation, Record, RecordKind};
-use crate::diag::codes::foreign as codes;
+use crate::diag::codes::{foreign as codes, semantics};
 use crate::diag::{Code, Diagnostic, Severity, Sink, did_you_mean};
 use crate::ir::{Origin, Tool};
 use crate::source::{FileId, Span};
@@ -18,6 +18,16 @@ use crate::units::LengthUnit;
 
 /// Messages of one code at most; the rest are counted.
 const MOST_MESSAGES: u64 = 20;
+
+/// A record that is not text for people has at most this many bytes.
+const LONGEST_RECORD: usize = 1 << 16;
+/// Of a word that is not known, messages show this many characters.
+const SHOWN: usize = 40;
+
+/// A line that says nothing: blank, or the marks at the ends of old files.
+fn nothing(line: &str) -> bool {
+    line.trim_matches(['%', '\u{1a}', ' ', '\t']).is_empty()
+}
 
 /// Reads a CL file.
 #[derive(Debug)]
@@ -214,7 +224,8 @@ impl<'t> Reader<'t> {
         if let Some(name) = upper.strip_prefix("OPERATION NAME") {
             let name = name.trim_start_matches([' ', ':']).trim();
             self.begin_named(name.to_owned());
-        } else if let Some(name) = body.strip_prefix("OPERATION ").filter(|_| self.producer == Producer::Plain)
+        } else if let Some(name) =
+            body.strip_prefix("OPERATION ").filter(|_| self.producer == Producer::Plain)
         {
             // As `--emit cl` and the post `apt-cl` write it: with a number before it, or without.
             let (number, rest) = name.split_once(": ").unwrap_or(("", name));
@@ -227,11 +238,15 @@ impl<'t> Reader<'t> {
     fn record_text(&mut self, text: &str) {
         let trimmed = text.trim();
         let record = without_number(trimmed);
-        if record.is_empty() || record == "%" {
+        if nothing(record) {
             return;
         }
         if let Some((word, rest)) = raw_word(record) {
             return self.raw(word, rest);
+        }
+        if text.len() > LONGEST_RECORD {
+            let message = format!("a record of {} bytes: they have {LONGEST_RECORD} at most", trimmed.len());
+            return self.complain(&codes::BAD_RECORD, message);
         }
         if self.state.continues && trimmed.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c)) {
             let goto = format!("GOTO/{trimmed}");
@@ -281,9 +296,13 @@ impl<'t> Reader<'t> {
         if !matches!(s.major(), "KNOT" | "CNTRL") {
             self.flush_nurbs();
         }
-        // Points of an arc may have colours among them.
-        if !matches!(s.major(), "GOTO" | "PAINT") {
-            self.flush_circle();
+        // Points of an arc may have colours among them; what moves nothing may stand before its point.
+        match s.major() {
+            "GOTO" | "GODLTA" | "PAINT" => {}
+            "FEDRAT" | "SPINDL" | "COOLNT" | "CUTCOM" | "DELAY" | "DWELL" | "INTOL" | "OUTTOL" | "TOLER"
+            | "MULTAX" => self.flush_circle(),
+            word if words::class(word) == Some(Class::Harmless) => self.flush_circle(),
+            _ => self.end_circle(),
         }
         self.state.continues = false;
         match s.major() {
@@ -311,16 +330,37 @@ impl<'t> Reader<'t> {
                 self.soften(&codes::NOT_CARRIED_OUT, message, None);
             }
             None => {
-                let near = did_you_mean(word, words::CARRIED_OUT.iter().copied());
+                let short: String = word.chars().take(SHOWN).collect();
+                let near = did_you_mean(&short, words::CARRIED_OUT.iter().copied());
                 let help = near.map(|n| format!("did you mean `{n}`?"));
-                self.soften(&codes::UNKNOWN_RECORD, format!("the record `{word}` is not known"), help);
+                let more = if short.len() < word.len() { "…" } else { "" };
+                let message = format!("the record `{short}{more}` is not known");
+                self.soften(&codes::UNKNOWN_RECORD, message, help);
+            }
+        }
+    }
+
+    /// What stands behind the end is not read; that it does is said.
+    fn look_behind(&mut self) {
+        let silent = |line: &str| {
+            let word = line.trim();
+            nothing(word) || word.starts_with("$$") || matches!(word, "FINI" | "END" | "END-OF-PATH")
+        };
+        while let Some((line, start)) = self.lines.line() {
+            if !silent(without_number(line.trim())) {
+                self.span = Span::new(self.file, start, start + line.len());
+                let message = "this and what follows stands behind the end of the program: it is not read";
+                return self.complain(&semantics::AFTER_FINI, message.to_owned());
             }
         }
     }
 
     fn finish(&mut self) {
         self.flush_nurbs();
-        self.flush_circle();
+        self.end_circle();
+        if self.producer != Producer::Mastercam {
+            self.look_behind();
+        }
         self.leave_cycle();
         self.end_operation();
         self.report_curves();
@@ -424,7 +464,6 @@ impl<'t> Reader<'t> {
         self.state.scale = unit.in_mm();
     }
 }
-
 
 fn zero(s: &Statement) -> bool {
     s.numbers().iter().all(|v| *v == 0.0)

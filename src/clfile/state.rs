@@ -42,6 +42,8 @@ pub(super) struct State {
     pub loaded: Option<crate::arena::Handle<crate::ir::Tool>>,
     pub circle: Option<Pending>,
     pub cycle: Option<Asked>,
+    /// A cycle is in force that could not be understood: its holes are no cuts either.
+    pub cycle_failed: bool,
     pub nurbs: Option<Spans>,
     /// Curves that became lines: the first, how many, how many lines.
     pub flattened: Option<(crate::source::Span, usize, usize)>,
@@ -86,6 +88,7 @@ impl State {
             loaded: None,
             circle: None,
             cycle: None,
+            cycle_failed: false,
             nurbs: None,
             flattened: None,
             frame: None,

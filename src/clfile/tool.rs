@@ -14,6 +14,8 @@ pub(super) struct Data {
     /// d, r, e, f, α, β, h as written: lengths in mm, angles in radians.
     cutter: [f64; 7],
     stated: bool,
+    /// It was stated for a tool that has not been changed in yet.
+    fresh: bool,
 }
 
 /// A tool change that waits for what the file says of the tool.
@@ -68,6 +70,7 @@ impl Reader<'_> {
         }
         self.state.tool.cutter = cutter;
         self.state.tool.stated = true;
+        self.state.tool.fresh = true;
     }
 
     /// `TLDATA/ MILL, d, r, length, taper, tip` or `DRILL, MILL, d, …`.
@@ -90,11 +93,26 @@ impl Reader<'_> {
         self.begin_named(joined(parts.get(..word).unwrap_or_default()));
         let tool = joined(parts.get(word + 1..).unwrap_or_default());
         let Some(tool) = Some(tool.as_str()).filter(|t| !t.is_empty()) else { return };
-        let same = self.state.tool.name.as_deref() == Some(tool);
+        let same = self.state.tool.name.as_deref() == Some(tool) || self.named_behind(tool);
         if !same {
             self.state.tool = Data { name: Some(tool.to_owned()), ..Data::default() };
             self.state.load = Some(Load { number: None, span: self.span });
         }
+    }
+
+    /// Whether a tool that was changed in by its number alone, and has not moved yet, gets its name here.
+    fn named_behind(&mut self, name: &str) -> bool {
+        if self.state.tool.name.is_some() || self.state.at.is_some() && self.state.load.is_none() {
+            return false;
+        }
+        if self.state.load.as_ref().is_some_and(|load| load.number.is_none()) {
+            return false;
+        }
+        if self.state.load.is_none() && self.state.loaded.is_none() {
+            return false;
+        }
+        self.state.tool.name = Some(name.to_owned());
+        true
     }
 
     /// `LOADTL/ n`, `LOAD/ TOOL, n`, `TOOLNO/ n`.
@@ -140,9 +158,9 @@ impl Reader<'_> {
         if same && self.state.load.is_none() {
             return;
         }
-        if self.state.loaded.is_some() && self.state.load.is_none() {
-            // A tool of its own, unless the file says more of it.
-            self.state.tool.stated = false;
+        if self.state.loaded.is_some() && self.state.load.is_none() && !self.state.tool.fresh {
+            // What is known is known of the tool before.
+            self.state.tool = Data::default();
         }
         self.leave_cycle();
         self.state.load = Some(Load { number, span: self.span });
@@ -157,6 +175,7 @@ impl Reader<'_> {
             return;
         };
         let span = core::mem::replace(&mut self.span, load.span);
+        self.state.tool.fresh = false;
         let data = self.state.tool.clone();
         let [d, r, e, f, a, b, h] = data.cutter;
         let kind = match (r, d) {
@@ -191,6 +210,12 @@ impl Reader<'_> {
             }),
         };
         if self.state.loaded != Some(tool) {
+            if self.tools[tool].number.is_none() {
+                let name = &self.tools[tool].name;
+                let message =
+                    format!("the file gives {name} no number: it is called by the smallest that is free");
+                self.complain(&codes::NO_TOOL_NUMBER, message);
+            }
             self.emit(RecordKind::LoadTool(tool));
             self.state.loaded = Some(tool);
             self.state.spindle_recorded = false;

@@ -158,7 +158,10 @@ impl Emitter<'_> {
         let message = format!(
             "the cycle has one depth of cut: {least} mm for all pecks in place of {first} mm for the first and {peck} mm for the others"
         );
-        self.complain(&codes::lowering::ONE_PECK, message);
+        // Once for all cycles alike.
+        if self.pecks_told.replace((first, peck)) != Some((first, peck)) {
+            self.complain(&codes::lowering::ONE_PECK, message);
+        }
         Some(least)
     }
 

@@ -50,6 +50,7 @@ pub(super) struct Carry {
     exact: Option<Point3>,
     spinning: Option<Spindle>,
     parked: bool,
+    pecks_told: Option<(f64, f64)>,
 }
 
 /// Emits a chunk: the first one begins the program, the last one ends it.
@@ -97,12 +98,16 @@ impl Carry {
             exact: None,
             spinning: None,
             parked: false,
+            pecks_told: None,
         }
     }
 }
 
 /// The largest number of messages about numbers that do not fit: one is enough for each statement.
 const MAX_COMPLAINTS: usize = 50;
+
+/// Moves of an approach at most.
+const MOST_APPROACH: usize = 64;
 
 /// Builds the program block by block.
 pub(super) struct Emitter<'a> {
@@ -137,6 +142,8 @@ pub(super) struct Emitter<'a> {
     pub(super) spinning: Option<Spindle>,
     /// Z stands at its upper end since the last tool change.
     parked: bool,
+    /// First and further peck that a message has told about.
+    pub(super) pecks_told: Option<(f64, f64)>,
 }
 
 impl<'a> Emitter<'a> {
@@ -171,6 +178,7 @@ impl<'a> Emitter<'a> {
             exact: None,
             spinning: None,
             parked: false,
+            pecks_told: None,
         };
         emitter.forget();
         emitter
@@ -189,6 +197,7 @@ impl<'a> Emitter<'a> {
         self.exact = carry.exact;
         self.spinning = carry.spinning;
         self.parked = carry.parked;
+        self.pecks_told = carry.pecks_told;
     }
 
     fn records(&mut self, fitted: &[Option<Arc<Fitted>>]) {
@@ -223,6 +232,7 @@ impl<'a> Emitter<'a> {
             exact: self.exact,
             spinning: self.spinning,
             parked: self.parked,
+            pecks_told: self.pecks_told,
         };
         (program, carry)
     }
@@ -413,13 +423,13 @@ impl<'a> Emitter<'a> {
     /// right there.
     fn aim(&mut self, index: usize, point: Point3, fitted: &[Option<Arc<Fitted>>]) -> [i64; 3] {
         let [x, y, z] = self.round(point);
-        let next = self.cl.records.get(index + 1..).unwrap_or_default().iter().zip(index + 1..).find_map(
-            |(r, i)| match &r.kind {
-                RecordKind::Linear(p) | RecordKind::Rapid(p) if (p.xy() - point.xy()).norm() == 0.0 => None,
-                RecordKind::Contour(c) if c.entry == Lead::None => Some(Some((i, c))),
-                _ => Some(None),
-            },
-        );
+        let next = self.cl.records.get(index + 1..).unwrap_or_default().iter().zip(index + 1..);
+        // A contour is approached by a few moves; points in one place may be many.
+        let next = next.take(MOST_APPROACH).find_map(|(r, i)| match &r.kind {
+            RecordKind::Linear(p) | RecordKind::Rapid(p) if (p.xy() - point.xy()).norm() == 0.0 => None,
+            RecordKind::Contour(c) if c.entry == Lead::None => Some(Some((i, c))),
+            _ => Some(None),
+        });
         let Some(Some((target, contour))) = next else { return [x, y, z] };
         let (start, _) = contour.curve.domain();
         let near = (contour.curve.at(start).p - point.xy()).norm() < self.capabilities.grid.linear_step();

@@ -1,5 +1,6 @@
 //! What templates can read.
 
+use minijinja::value::{Serde, Value};
 use serde::Serialize;
 
 use super::events::Events;
@@ -13,7 +14,7 @@ use crate::units::LengthUnit;
 pub(super) struct Context<'a> {
     post: PostContext<'a>,
     program: ProgramContext,
-    tools: Vec<ToolContext>,
+    tools: Value,
     rotary: Option<String>,
     safe_start: String,
     options: &'a std::collections::BTreeMap<String, String>,
@@ -109,7 +110,7 @@ impl<'a> Events<'a> {
         Context {
             post: PostContext { name: &dialect.name, title: &dialect.spec.post.title },
             program: self.program_context(),
-            tools: self.program.tools.iter().map(|tool| self.tool_context(tool)).collect(),
+            tools: self.tools(),
             rotary: self.program.capabilities.rotary.map(|r| r.letter.to_string()),
             safe_start: self.safe_start(),
             options: &self.program.capabilities.options,
@@ -121,6 +122,16 @@ impl<'a> Events<'a> {
             operation: None,
             cycle: None,
         }
+    }
+
+    /// All tools. They stay the same, and a program may have thousands of changes.
+    fn tools(&self) -> Value {
+        let list = || {
+            let tools: Vec<ToolContext> =
+                self.program.tools.iter().map(|tool| self.tool_context(tool)).collect();
+            Value::from(Serde(tools))
+        };
+        self.tools.get_or_init(list).clone()
     }
 
     fn program_context(&self) -> ProgramContext {

@@ -35,6 +35,8 @@ pub(super) struct Events<'a> {
     pub(super) program: &'a TargetProgram,
     origins: &'a Arena<Origin>,
     renderer: Renderer,
+    /// All tools, for templates.
+    pub(super) tools: std::cell::OnceCell<Value>,
     tool_changes: usize,
     /// The tool in the spindle.
     tool: Option<u32>,
@@ -67,6 +69,7 @@ impl<'a> Events<'a> {
             program,
             origins,
             renderer,
+            tools: std::cell::OnceCell::new(),
             tool_changes: 0,
             tool: None,
             first_operation: true,

@@ -16,8 +16,11 @@ impl Analyser<'_> {
         if m.form != "on" || core::mem::replace(&mut self.state.compensation_told, true) {
             return;
         }
-        let message = "the path is written as the points say, without the control's own compensation (G41, G42)";
-        self.report(Diagnostic::new(&foreign::NO_COMPENSATION, m.word, message).help(foreign::NO_COMPENSATION_HELP));
+        let message =
+            "the path is written as the points say, without the control's own compensation (G41, G42)";
+        self.report(
+            Diagnostic::new(&foreign::NO_COMPENSATION, m.word, message).help(foreign::NO_COMPENSATION_HELP),
+        );
     }
 
     /// `TLAXIS/` and the last three numbers of `GOTO/`: along Z, or an error, once for a program.
@@ -32,8 +35,9 @@ impl Analyser<'_> {
         if upright || core::mem::replace(&mut self.state.axis_told, true) {
             return;
         }
-        let message =
-            format!("the tool axis is ({i}, {j}, {k}), off Z: it needs rotary axes, and the posts are for three");
+        let message = format!(
+            "the tool axis is ({i}, {j}, {k}), off Z: it needs rotary axes, and the posts are for three"
+        );
         let help = "set up the part so that the tool axis is Z";
         self.report(Diagnostic::new(&foreign::TOOL_AXIS, m.word, message).help(help));
     }

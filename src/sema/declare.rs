@@ -168,6 +168,8 @@ impl Analyser<'_> {
             "RESERV" => return self.reserv(command),
             _ => {}
         }
+        let with_axis = statement.word == "GOTO" && self.state.multi_axis && command.args.len() == 6;
+        let statement = if with_axis { &crate::vocab::GOTO_WITH_AXIS } else { statement };
         let Some(m) = self.arguments(statement, command) else {
             if statement.word == "PARAM" {
                 self.poison_parameter(command);
@@ -194,6 +196,7 @@ impl Analyser<'_> {
             "CYCLE" => self.drill_cycle(m),
             "CUTCOM" => self.cutcom(m),
             "TLAXIS" => self.tool_axis(m),
+            "MULTAX" => self.state.multi_axis = m.word("state") != Some("OFF"),
             "DELAY" => self.step(StepKind::Dwell(m.number("time").unwrap_or(0.0))),
             "STOP" => self.step(StepKind::Stop),
             "OPSTOP" => self.step(StepKind::OptionalStop),

@@ -64,6 +64,8 @@ pub(super) struct State {
     pub cycle: bool,
     /// `CUTCOM` has had its warning.
     pub compensation_told: bool,
+    /// `MULTAX/ ON`: points may have a tool axis.
+    pub multi_axis: bool,
     /// A tool axis off Z has had its error.
     pub axis_told: bool,
     /// The cutter's position, mm, once it is known.
@@ -102,6 +104,7 @@ impl Default for State {
             rapid: false,
             cycle: false,
             compensation_told: false,
+            multi_axis: false,
             axis_told: false,
             position: None,
             at_from: false,

@@ -67,9 +67,12 @@ fn coolant(case: &Case<'_>, placed: &Placed<'_>) -> Option<Text> {
         other => other,
     };
     let got = (placed.cut.coolant.flood, placed.cut.coolant.mist);
+    if got == wanted {
+        return None;
+    }
     let more_is_fine = case.target.blocks.iter().any(|b| matches!(b.kind, BlockKind::Insert(_)));
     let missing = wanted.0 && !got.0 || wanted.1 && !got.1;
-    (missing || got != wanted && !more_is_fine).then(|| {
+    (missing || !more_is_fine).then(|| {
         Text::default().words(format!("a cut with {} in place of {}", washing(got), washing(wanted)))
     })
 }

@@ -25,6 +25,7 @@ pub mod reference;
 mod space;
 
 pub use functions::{FUNCTIONS, Function, FunctionId};
+pub use operations::GOTO_WITH_AXIS;
 pub use program::STRUCTURE_WORDS;
 
 /// Groups of the reference.

@@ -18,6 +18,17 @@ const TOOL_AXIS: &[Form] = &[
     form("components", "its components", &[AXIS_I, AXIS_J, AXIS_K], &[]),
 ];
 
+const WITH_AXIS: &[Form] = &[form(
+    "axis",
+    "coordinates and tool axis, which must be Z",
+    &[value("x", LENGTH, "x"), value("y", LENGTH, "y"), value("z", LENGTH, "z"), AXIS_I, AXIS_J, AXIS_K],
+    &[],
+)];
+
+/// `GOTO` with six numbers, after `MULTAX/ ON`.
+pub static GOTO_WITH_AXIS: Statement =
+    motion("GOTO", "straight to a point, with a tool axis", "GOTO/ 10, 20, 5, 0, 0, 1", WITH_AXIS);
+
 const MULTI_AXIS: &[Form] = &[form(
     "state",
     "",
@@ -31,12 +42,6 @@ const TO_POINT: &[Form] = &[
         "coordinates",
         "coordinates",
         &[value("x", LENGTH, "x"), value("y", LENGTH, "y"), optional("z", LENGTH, "z; 0 without it"), FEED],
-        &[],
-    ),
-    form(
-        "axis",
-        "coordinates and tool axis, which must be Z",
-        &[value("x", LENGTH, "x"), value("y", LENGTH, "y"), value("z", LENGTH, "z"), AXIS_I, AXIS_J, AXIS_K],
         &[],
     ),
     Form {
@@ -120,7 +125,12 @@ pub const MOTION: &[Statement] = &[
     motion("GOTO", "straight to a point", "GOTO/ 10, 20, 5", TO_POINT),
     motion("GODLTA", "straight by increments", "GODLTA/ 0, 0, -5", BY_DELTA),
     motion("RAPID", "the next move is at rapid", "RAPID", &[]),
-    motion("MULTAX", "points may have a tool axis, which must be Z: the posts are for three axes", "MULTAX/ OFF", MULTI_AXIS),
+    motion(
+        "MULTAX",
+        "after it GOTO may have three numbers more: a tool axis, which must be Z, for the posts are for three axes",
+        "MULTAX/ OFF",
+        MULTI_AXIS,
+    ),
     motion("TLAXIS", "tool axis of the points that follow, which must be Z", "TLAXIS/ 0, 0, 1", TOOL_AXIS),
 ];
 

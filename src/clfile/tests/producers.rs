@@ -22,6 +22,7 @@ fn files_are_recognised_by_name_and_by_content() {
     assert_eq!(recognise("a.nci", ""), Some(Producer::Mastercam));
     assert_eq!(recognise("a.apt", "PARTNO/X\nUNIT/MM\nCUTTER/10\n"), Some(Producer::SolidWorks));
     assert_eq!(recognise("a.txt", "$$* Pro/CLfile  Version\n"), Some(Producer::Creo));
+    assert_eq!(recognise("a.aptsource", "$$ CATIA APT VERSION 1.0\n$$*CATIA0\n"), Some(Producer::Catia));
     assert_eq!(recognise("a.apt", "PARTNO X\nAUTOPS\nINDIRV/1,0,0\n"), Some(Producer::Catia));
     assert_eq!(recognise("a.txt", "N10 , CUTTER/ 10\nN11 , GOTO/ 1,2,3\n"), Some(Producer::Ncl));
     assert_eq!(recognise("a.apt", "T1 = CUTTER/ FLAT, 16\nLOADTL/ T1\n"), None);
@@ -135,6 +136,16 @@ fn ncl_line_numbers_and_tildes() {
     );
     assert_eq!(codes, [""; 0]);
     assert_eq!(kinds(&cl), "RLL");
+}
+
+#[test]
+fn ncl_continuation_records_and_comments_behind_numbers() {
+    let (cl, codes) = read(
+        "N1 , LOADTL/ 1\nN2 , CUTTER/ 12\nC2 , CUTTER/ DISPLY, SHANK, 10, 40\nN3 , SPINDL/ 800, CLW\nN4 , FEDRAT/ 100\n\
+         N5 , RAPID\nN6 , GOTO/ 10, 0, 5\nN7 , $$ an arc\nN8 , CIRCLE/ 0, 0, 5, 0, 0, 1, 10\n\
+         C8 , GOTO/ 7.0710678, 7.0710678, 5\nC8 , GOTO/ 0, 10, 5\nN9 , FINI\n",
+    );
+    assert_eq!((kinds(&cl).as_str(), codes.as_slice()), ("RC", [""; 0].as_slice()));
 }
 
 #[test]

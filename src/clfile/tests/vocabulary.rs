@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::{framed, read_as};
-use crate::cl::{Cl, RecordKind, print};
+use crate::cl::{Cl, CycleKind, RecordKind, print};
 use crate::clfile::{Producer, words};
 
 /// Records of every word, in a program that has moved already. A word without an example fails the test below.
@@ -141,7 +141,10 @@ const EXAMPLES: &[(&str, &[&str])] = &[
     ("MSYS", &["MSYS/ 0, 0, 0, 1, 0, 0, 0, 1, 0"]),
     ("CSYS", &["CSYS/ 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0"]),
     ("TRNTYP", &["TRNTYP/ WORLD, 0, 0, 0"]),
-    ("NURBS", &["NURBS/\nKNOT/ 0.5, 1\nCNTRL/ 10, 5, 5\nCNTRL/ 20, 5, 5\nCNTRL/ 20, 20, 5\nCNTRL/ 30, 30, 5"]),
+    (
+        "NURBS",
+        &["NURBS/\nKNOT/ 0.5, 1\nCNTRL/ 10, 5, 5\nCNTRL/ 20, 5, 5\nCNTRL/ 20, 20, 5\nCNTRL/ 30, 30, 5"],
+    ),
     ("KNOT", &["NURBS/\nKNOT/ 1\nCNTRL/ 10, 5, 5\nCNTRL/ 20, 5, 5\nCNTRL/ 20, 20, 5"]),
     ("CNTRL", &["NURBS/\nKNOT/ 1\nCNTRL/ 11, 0, 5\nCNTRL/ 12, 0, 5\nCNTRL/ 13, 0, 5"]),
     ("INDIRV", &["INDIRV/ 0, 1, 0\nTLON,GOFWD/ (CIRCLE/ 0, 0, 5, 10),ON,(LINE/ 0, 0, 5, 0, 10, 5)"]),
@@ -190,6 +193,11 @@ fn said(cl: &Cl) -> Vec<String> {
                 format!("tool {:?} {} {} {profile:?}", t.number, t.diameter, t.corner)
             }
             RecordKind::BeginOperation(index) => format!("begin {}", cl.operations[*index as usize].name),
+            // The feed of a tap follows from its pitch and is not read.
+            RecordKind::BeginCycle(cycle) if matches!(cycle.kind, CycleKind::Tap { .. }) => {
+                let feed = crate::ir::Feed::PerMinute(0.0);
+                rounded(&format!("{:?}", crate::cl::Cycle { feed, ..**cycle }))
+            }
             kind => rounded(&format!("{kind:?}")),
         })
         .collect()

@@ -17,9 +17,20 @@ fn nothing_is_dropped_in_silence() {
         ("CIRCLE/ 0, 0, 5, 0, 0, 1, 10\nGOTO/ 0, 14, 5", "E1005"),
         ("CYCLE/ DEEP, FEDTO, 20, MMPM, 120, RAPTO, 2", "E1006"),
         ("CYCLE/ DRILL, FEDTO, 20, MMPM, 120", "E1006"),
+        ("CYCLE/ DRILL, 15, 200, MMPM", "E1006"),
+        ("CYCLE/ DRILL, FEDTO, 20, MMPM, 120, RAPTO, 2, DWELL, 1E9", "E1006"),
+        ("CIRCLE/ 0, 0, 5, 0, 0, 1, 10, TIMES, 1E9\nGOTO/ 10, 0, 5", "E1002"),
+        ("CIRCLE/ 0, 0, 5, 0, 0, 1, 10", "E1002"),
+        ("CIRCLE/ 0, 0, 5, 0, 0, 1, 10\nRAPID\nGOTO/ 0, 10, 5", "E1002"),
+        ("LOADTL/ 3, OSETNO, 13", "E1003"),
+        ("TLDATA/ TURN, 0.8, 35, 30", "E1003"),
+        ("FINI\nGOTO/ 1, 1, 1", "W0252"),
         ("CYCLE/ WOBBLE, FEDTO, 20, MMPM, 120, RAPTO, 2", "E1006"),
         ("NURBS/\nKNOT/ 0.5, 1.0\nCNTRL/ 1, 0, 0", "E1007"),
         ("CUTCOM/ LEFT, XYPLAN", "W1010"),
+        ("TOOL PATH/FACE,TOOL,FACE_MILL\nSPINDL/500\nRAPID\nGOTO/1,1,1", "W1015"),
+        ("CYCLE/ DRILL, FEDTO, 0, MMPM, 50, RAPTO, 2\nGOTO/ 1, 1, 0\nCYCLE/ OFF", "E1006"),
+        ("CIRCLE/ 0, 0, 5, 0, 0, 1, 10\nGOTO/ 0, 10, 5, 1, 0, 0", "E1004"),
         ("CIRCLE/ 0, 0, 5, 0, 0, 1, 10\nGOTO/ 0, 10.05, 5", "W1011"),
     ] {
         let (_, codes) = read(&framed(record));
@@ -80,8 +91,8 @@ fn feeds_and_speeds_in_either_order_and_in_their_own_units() {
     };
     assert_eq!(speed("SPINDL/ RPM, 900, CCLW"), Some(Spindle::On { rpm: 900.0, clockwise: false }));
     assert_eq!(speed("SPINDL/ 900, RPM"), Some(Spindle::On { rpm: 900.0, clockwise: true }));
-    let Some(Spindle::On { rpm, .. }) = speed("SPINDL/ 31.4159265, SMM, CLW") else { panic!("no speed") };
-    assert!((rpm - 1000.0).abs() < 1e-3);
+    let Some(Spindle::On { rpm, .. }) = speed("SPINDL/ 47.1238898, SMM, CLW") else { panic!("no speed") };
+    assert!((rpm - 1500.0).abs() < 1e-3, "{rpm}");
 }
 
 #[test]
@@ -108,12 +119,95 @@ fn cycles_in_their_spellings() {
     let positional = cycle("CYCLE/ DRILL, 15, MMPM, 80, 2");
     assert_eq!((positional.depth, positional.clearance), (15.0, 2.0));
     assert_eq!(positional.feed, Feed::PerMinute(80.0));
+    // Depth, feed, unit, clearance.
+    let catia = cycle("CYCLE/ DEEPHL, 15, 200, MMPM, 2, INCR, 3");
+    assert_eq!((catia.depth, catia.clearance, catia.peck), (15.0, 2.0, Some(3.0)));
+    assert_eq!(catia.feed, Feed::PerMinute(200.0));
+    let nx = cycle("CYCLE/DRILL,DEEP,RAPTO,3,FEDTO,-25,STEP1,5,STEP2,3,STEP3,2,RTRCTO,AUTO,MMPM,150");
+    assert_eq!((nx.kind, nx.peck, nx.first_peck), (CycleKind::Deep, Some(2.0), Some(5.0)));
+    assert_eq!(nx.retract, RetractTo::Initial);
     let face = cycle("CYCLE/ FACE, FEDTO, 2, MMPM, 50, RAPTO, 2, DWELL, 1.5");
     assert_eq!((face.kind, face.dwell), (CycleKind::Dwell, Some(1.5)));
     let tap = cycle("CYCLE/ TAP, FEDTO, 12, MMPR, 1.25, RAPTO, 5");
     assert_eq!(tap.kind, CycleKind::Tap { pitch: 1.25, left: false });
     assert_eq!(cycle("CYCLE/ BORE, FEDTO, 9, MMPM, 60, RAPTO, 2").kind, CycleKind::Bore);
     assert_eq!(cycle("CYCLE/ BORE, FEDTO, 9, MMPM, 60, RAPTO, 2, DWELL, 1").kind, CycleKind::BoreDwell);
+}
+
+#[test]
+fn words_may_stand_between_a_circle_and_its_point() {
+    let (cl, codes) =
+        read(&framed("CIRCLE/ 0, 0, 5, 0, 0, 1, 10\nFEDRAT/ 90, MMPM\nPPRINT NOW\nGOTO/ 0, 10, 5"));
+    assert_eq!((kinds(&cl).as_str(), codes.as_slice()), ("RC", [""; 0].as_slice()));
+}
+
+#[test]
+fn points_before_the_first_tool_are_approached_with_it() {
+    for before in ["FROM/ 0, 0, 90", "RAPID\nGOTO/ 0, 0, 90"] {
+        let text = format!("{before}\nLOADTL/ 1\nSPINDL/ 900\nFEDRAT/ 100\nGOTO/ 5, 0, 90\nFINI\n");
+        let (cl, codes) = read(&text);
+        assert_eq!(codes, [""; 0], "{before}");
+        let after_tool = cl
+            .records
+            .iter()
+            .skip_while(|r| !matches!(r.kind, RecordKind::LoadTool(_)))
+            .nth(1)
+            .map(|r| &r.kind);
+        assert!(matches!(after_tool, Some(RecordKind::From(p)) if p.z == 90.0), "{after_tool:?}");
+        assert_eq!(kinds(&cl), "L");
+    }
+}
+
+#[test]
+fn after_a_tool_change_an_unarmed_point_is_approached_at_rapid_with_a_warning() {
+    let (cl, codes) = read(&framed("GOTO/ 5, 5, 5\nLOADTL/ 2\nSPINDL/ 700\nGOTO/ 0, 0, 60\nGOTO/ 0, 0, 5"));
+    assert_eq!((kinds(&cl).as_str(), codes.as_slice()), ("RLRL", ["W1012"].as_slice()));
+}
+
+#[test]
+fn a_cycle_right_after_the_tool_change_drills_its_first_point() {
+    let text = "LOADTL/1\nSPINDL/900\nFEDRAT/100\nCYCLE/DRILL,FEDTO,5,RAPTO,2\nGOTO/1,1,0\nCYCLE/OFF\nFINI\n";
+    let (cl, codes) = read(text);
+    assert_eq!((kinds(&cl).as_str(), codes.as_slice()), ("RBHE", [""; 0].as_slice()));
+}
+
+#[test]
+fn lines_end_as_any_system_ends_them() {
+    let (whole, _) = read(&framed("GOTO/ 1, 1, 1\nGOTO/ 2, 2, 2"));
+    for end in ["\r\n", "\r"] {
+        let (cl, codes) =
+            read(&format!("{}\u{1a}", framed("GOTO/ 1, 1, 1\nGOTO/ 2, 2, 2").replace('\n', end)));
+        assert_eq!((kinds(&cl), codes.as_slice()), (kinds(&whole), [""; 0].as_slice()));
+    }
+}
+
+#[test]
+fn messages_of_one_code_are_counted_after_the_first_twenty() {
+    let (_, codes) = read(&framed(&"FOOBAR/ 1\n".repeat(30)));
+    assert_eq!((codes.len(), codes.last().copied()), (21, Some("N1014")));
+}
+
+#[test]
+fn records_have_a_bound() {
+    for body in ["A".repeat(200_000), format!("FOO/ {}", "1,".repeat(100_000)), "GOTO/ 1,\n".repeat(50_000)] {
+        let (_, codes) = read(&framed(&body));
+        assert!(codes.contains(&"E1002"), "{codes:?}");
+    }
+}
+
+#[test]
+fn full_circles_of_many_rounded_points_are_full() {
+    let body = "GOTO/ 10, 0, 0\nCIRCLE/ 0, 0, 0, 0, 0, 1, 10\nGOTO/ 0, 10, 0\nGOTO/ -10, 0, 0\nGOTO/ 0, -10, 0\nGOTO/ 10, 0.0004, 0\nGOTO/ 20, 0, 0";
+    let (cl, codes) = read_as(&framed(body), Some(crate::clfile::Producer::Ncl), false);
+    assert_eq!((kinds(&cl).as_str(), codes.as_slice()), ("RLCL", [""; 0].as_slice()));
+}
+
+#[test]
+fn what_is_off_anyway_may_be_switched_off() {
+    let (_, codes) = read(&framed("SET/MODE,ABSOL\nMODE/INCR,OFF\nOPSKIP/OFF\nTRACUT/NOMORE"));
+    assert_eq!(codes, [""; 0]);
+    let (_, codes) = read(&framed("SET/MODE,INCR"));
+    assert_eq!(codes, ["E1003"]);
 }
 
 #[test]

@@ -100,6 +100,13 @@ pub const MORE: Code = Code {
     page: include_str!("../../../docs/diagnostics/N1014.md"),
 };
 
+/// a tool has no number.
+pub const NO_TOOL_NUMBER: Code = Code {
+    id: "W1015",
+    title: "a tool has no number",
+    page: include_str!("../../../docs/diagnostics/W1015.md"),
+};
+
 /// All codes of this area.
 pub const ALL: &[&Code] = &[
     &UNKNOWN_RECORD,
@@ -116,4 +123,5 @@ pub const ALL: &[&Code] = &[
     &FIRST_AT_RAPID,
     &CURVE_AS_LINES,
     &MORE,
+    &NO_TOOL_NUMBER,
 ];
