@@ -90,6 +90,7 @@ impl Reader<'_> {
         };
         match word.as_str() {
             "OFF" | "NOMORE" => self.leave_cycle(),
+            "CLEAR" if s.args.len() == 1 => self.leave_cycle(),
             "INIT" => {}
             "ON" if self.state.cycle.is_some() => {}
             _ => self.begin_asked(&word, s),

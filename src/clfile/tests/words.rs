@@ -206,6 +206,8 @@ fn full_circles_of_many_rounded_points_are_full() {
 fn what_is_off_anyway_may_be_switched_off() {
     let (_, codes) = read(&framed("SET/MODE,ABSOL\nMODE/INCR,OFF\nOPSKIP/OFF\nTRACUT/NOMORE"));
     assert_eq!(codes, [""; 0]);
+    let (_, codes) = read(&framed("CYCLE/CLEAR\nCYCLE/INIT\nCYCLE/OFF"));
+    assert_eq!(codes, [""; 0]);
     let (_, codes) = read(&framed("SET/MODE,INCR"));
     assert_eq!(codes, ["E1003"]);
 }
