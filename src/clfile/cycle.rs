@@ -253,10 +253,10 @@ impl Reader<'_> {
     }
 
     fn ready_to_drill(&mut self, asked: &mut Asked) {
-        self.begin_operation();
         if self.state.load.is_some() || self.state.loaded.is_none() {
             self.flush_tool();
         }
+        self.begin_operation();
         if !self.state.spindle_recorded {
             self.record_spindle();
         }

@@ -97,8 +97,8 @@ impl Reader<'_> {
         self.state.moved = true;
         if self.state.load.is_some() {
             // Where a new tool is nobody knows.
-            self.begin_operation();
             self.flush_tool();
+            self.begin_operation();
         }
         if self.state.rapid {
             self.rapid_to(to);
@@ -117,8 +117,8 @@ impl Reader<'_> {
             self.state.at = Some(to);
             return;
         }
-        self.begin_operation();
         self.flush_tool();
+        self.begin_operation();
         self.start_spindle();
         if !self.state.rapid {
             let message = "the first move after a tool change starts nobody knows where: it is made at rapid";
@@ -160,8 +160,8 @@ impl Reader<'_> {
     #[inline]
     pub(super) fn ready(&mut self) -> bool {
         if self.state.operation.is_none() || self.state.load.is_some() {
-            self.begin_operation();
             self.flush_tool();
+            self.begin_operation();
         }
         if !self.state.spindle_recorded {
             self.record_spindle();
@@ -271,8 +271,8 @@ impl Reader<'_> {
             self.state.at = Some(p);
             return;
         }
-        self.begin_operation();
         self.flush_tool();
+        self.begin_operation();
         self.start_spindle();
         // It is approached at rapid.
         self.emit(RecordKind::From(p));

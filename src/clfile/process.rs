@@ -269,7 +269,6 @@ impl Reader<'_> {
 
     fn flush_tool_if_waiting(&mut self) {
         if self.state.load.is_some() {
-            self.begin_operation();
             self.flush_tool();
         }
     }

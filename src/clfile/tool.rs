@@ -231,6 +231,7 @@ impl Reader<'_> {
     /// The point at which the file wants the first tool: given before its change.
     fn go_to_first(&mut self) {
         if let Some((point, span)) = self.state.first.take() {
+            self.begin_operation();
             let span = core::mem::replace(&mut self.span, span);
             self.emit(RecordKind::From(point));
             self.state.at = Some(point);
