@@ -173,7 +173,12 @@ fn cl_text_of_either_flavour_is_read_to_the_same_text() {
             let first = write(&name, text.clone(), flavour);
             assert_eq!(first.contains("TOOL PATH/"), flavour == "nx");
             let second = write(again, first.clone(), flavour);
-            assert_eq!(first, second, "{name}, {flavour}");
+            // A tool that coolant has already changed in keeps the name it was loaded by, its number.
+            let unnamed = |text: &str| {
+                let line = |l: &str| l.split(",TOOL,").next().unwrap_or(l).to_owned();
+                text.lines().map(line).collect::<Vec<_>>()
+            };
+            assert_eq!(unnamed(&first), unnamed(&second), "{name}, {flavour}");
         }
     }
 }
