@@ -169,7 +169,7 @@ fn cl_text_of_either_flavour_is_read_to_the_same_text() {
     };
     for name in files() {
         let text = std::fs::read_to_string(folder().join(&name)).expect("a text");
-        for (flavour, again) in [("plain", "again.cl")] {
+        for (flavour, again) in [("plain", "again.cl"), ("nx", "again.cls")] {
             let first = write(&name, text.clone(), flavour);
             assert_eq!(first.contains("TOOL PATH/"), flavour == "nx");
             let second = write(again, first.clone(), flavour);

@@ -161,6 +161,9 @@ impl Reader<'_> {
         if self.state.loaded.is_some() && self.state.load.is_none() && !self.state.tool.fresh {
             // What is known is known of the tool before.
             self.state.tool = Data::default();
+        } else if self.state.loaded.is_some() && self.state.load.is_none() {
+            // The cutter is its own, the name is not.
+            self.state.tool.name = None;
         }
         self.leave_cycle();
         self.state.load = Some(Load { number, span: self.span });
