@@ -168,8 +168,10 @@ fn wrong_end(case: &Case<'_>, (motion, set): (&Motion, u8), placed: &Placed<'_>)
     // A table that is not known turns X and Y of the part.
     let plane = meant(0) && meant(1);
     let off = got - wanted;
-    // An end that follows from a printed angle is off by less than a step of the grid.
-    let near = 0.25 * case.target.capabilities.grid.linear_step() + ACCURACY;
+    // An end that follows from a printed angle lies on the start's circle, the one wanted on the grid: they are less than a
+    // step apart, as a wrong last digit would not be.
+    let share = if matches!(motion, Motion::Arc { .. }) { 0.75 } else { 0.25 };
+    let near = share * case.target.capabilities.grid.linear_step() + ACCURACY;
     let wrong = plane && !(off.xy().norm() <= near) || meant(2) && !(off.z.abs() <= near);
     wrong.then(|| {
         Text::default()

@@ -187,3 +187,13 @@ proptest! {
         }
     }
 }
+
+/// Programs that were found at random and went wrong once.
+#[test]
+fn what_went_wrong_once_reads_back_as_asked() {
+    let helix = Act::Round { axis: 2, radius: 543, start: 213, sweep: 62, rise: -1, clockwise: true };
+    let cl = cl(&[helix], LengthUnit::Inch);
+    for post in builtin_names() {
+        assert_eq!(trouble(post, &cl), None);
+    }
+}
