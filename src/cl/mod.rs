@@ -12,8 +12,11 @@
 //! - Every record knows its [`Origin`]; records between `BeginOperation` and `EndOperation` belong to that
 //!   operation.
 
+use std::sync::Arc;
+
 use crate::arena::{Arena, Handle};
 use crate::geom::curve::CurveRef;
+use crate::geom::surface::{SurfaceTree, Track};
 use crate::geom::{Point3, Side, Vec3};
 use crate::ir::{Band, Coolant, Feed, Interpolation, Origin, Spindle, Tool};
 use crate::units::LengthUnit;
@@ -85,10 +88,25 @@ pub struct Guard {
     pub walls: Vec<Wall>,
     /// Blank round about the origin, radius in mm, if declared: rapids below `top` must stay clear of it.
     pub blank_radius: Option<f64>,
+    /// The surface that is finished, if one is.
+    pub surface: Option<Finish>,
     /// Height above which everything is clear, mm (part's top).
     pub top: f64,
     /// Bottom of the operation, mm.
     pub bottom: f64,
+}
+
+/// A surface that a ball-end cutter finishes.
+#[derive(Debug, Clone)]
+pub struct Finish {
+    /// The surface.
+    pub tree: Arc<SurfaceTree>,
+    /// Radius of the cutter, mm.
+    pub radius: f64,
+    /// Stock to leave, mm.
+    pub leave: f64,
+    /// Largest height of the cusps between passes, mm, where that was asked for.
+    pub cusp: Option<f64>,
 }
 
 /// A wall as the cutter's centre sees it.
@@ -142,6 +160,8 @@ pub enum RecordKind {
     Linear(Point3),
     /// Along an arc or a helix at feed, from where the cutter is.
     Circle(Box<Circle>),
+    /// Along the surface at feed, from where the cutter is.
+    Pass(Box<Pass>),
     /// Along an exact curve at feed.
     Contour(Box<Contour>),
     /// A drilling cycle starts: every [`RecordKind::Hole`] until the end is made by it. The height of the cutter
@@ -166,6 +186,20 @@ pub struct Circle {
     pub turns: u32,
     /// How far the path may leave the exact curve, mm.
     pub tolerance: f64,
+}
+
+/// A pass of a ball-end cutter over a surface, or the way from one pass to the next.
+#[derive(Debug, Clone)]
+pub struct Pass {
+    /// The exact curve of the ball's centre.
+    pub track: Track,
+    /// Height of the centre above the tip, mm.
+    pub tip: f64,
+    /// How far into the surface and out of it the path may be, as seen by the ball.
+    pub band: Band,
+    /// How far the path may be to the side of the track, mm, at equidistant parameters from 0 to 1: what the distance
+    /// to its neighbours leaves. Empty: as far as it likes.
+    pub room: Vec<f64>,
 }
 
 /// A cut along an exact planar curve in the XY plane, at one or several heights.

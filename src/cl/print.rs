@@ -6,6 +6,7 @@
 //! - `RAPID` on its own line arms the next `GOTO`;
 //! - an arc is `CIRCLE/ xc, yc, zc, i, j, k, r` followed by one `GOTO` to its end; it turns about the axis
 //!   (i, j, k) by the right-hand rule, so k = -1 is clockwise. A full circle ends where it starts;
+//! - a pass over a surface is printed as points of its exact track, evenly spread, after a `$$` comment;
 //! - a curve that is neither line nor arc is printed as `GOTO` points whose chords stay within
 //!   [`CHORD_TOLERANCE`] of it, after a `$$` comment that says so. This is a listing tolerance only: the
 //!   compiler itself carries the exact curve on.
@@ -13,8 +14,11 @@
 use core::fmt::Write as _;
 
 use super::lead::{self, LeadPath};
-use super::{Circle, Cl, Contour, Cycle, CycleKind, Effort, Lead, Operation, Record, RecordKind, RetractTo};
+use super::{
+    Circle, Cl, Contour, Cycle, CycleKind, Effort, Lead, Operation, Pass, Record, RecordKind, RetractTo,
+};
 use crate::geom::curve::{PlanarCurve, Shape};
+use crate::geom::surface::Guide;
 use crate::geom::{Point2, Point3, Side};
 use crate::ir::{Coolant, Feed, Spindle, Tool};
 use crate::units::LengthUnit;
@@ -23,6 +27,8 @@ use crate::units::LengthUnit;
 pub const CHORD_TOLERANCE: f64 = 0.001;
 /// Decimals kept of every printed number.
 pub const DECIMALS: u32 = 9;
+/// Chords of a listed pass over a surface.
+const PASS_POINTS: u32 = 24;
 /// Chords of one smooth span at most, so that a degenerate curve cannot print for ever.
 const MAX_CHORDS: u32 = 100_000;
 
@@ -99,6 +105,7 @@ impl Printer<'_> {
             RecordKind::Rapid(p) => self.rapid(*p),
             RecordKind::Linear(p) => self.move_to("GOTO", *p),
             RecordKind::Circle(circle) => self.arc(circle),
+            RecordKind::Pass(pass) => self.pass(pass),
             RecordKind::Contour(contour) => self.contour(contour),
             RecordKind::BeginCycle(cycle) => self.cycle(cycle),
             RecordKind::Hole(p) => self.move_to("GOTO", *p),
@@ -265,6 +272,24 @@ impl Printer<'_> {
             self.lead(&path, *z);
             if contour.exit != Lead::None {
                 self.rapid(at_height(path.to(), contour.clearance));
+            }
+        }
+    }
+
+    /// A pass over a surface, as points whose chords stay near the exact track of the tip.
+    fn pass(&mut self, pass: &Pass) {
+        let what = match pass.track.guide {
+            Guide::Parameter { axis: 0, value, .. } => format!("ALONG U AT V {}", number(value)),
+            Guide::Parameter { value, .. } => format!("ALONG V AT U {}", number(value)),
+            Guide::Line { .. } => "OVER A STRAIGHT LINE".to_owned(),
+            Guide::Curve(_) => "OVER A CURVE".to_owned(),
+        };
+        self.line(format_args!("$$ PASS {what}"));
+        let mut contact = None;
+        for k in 0..=PASS_POINTS {
+            contact = pass.track.at(f64::from(k) / f64::from(PASS_POINTS), contact.as_ref());
+            if let Some(c) = &contact {
+                self.move_to("GOTO", Point3::new(c.centre.x, c.centre.y, c.centre.z - pass.tip));
             }
         }
     }

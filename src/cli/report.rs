@@ -87,6 +87,7 @@ fn line(file: &NcFile<'_>) -> String {
     let parts = [
         Some(format!("{count} moves")),
         deviation(certificate, file.units),
+        cusps(certificate, file.units),
         bound(certificate),
         Some(duration(certificate.time.total())),
     ];
@@ -107,6 +108,16 @@ fn deviation(certificate: &Certificate, units: LengthUnit) -> Option<String> {
     };
     let shown = |v: f64| format!("{:.decimals$}", v / units.in_mm());
     Some(format!("at most {} into and {} {} off the part", shown(into), shown(out), units.symbol()))
+}
+
+/// The highest cusp of all finished surfaces, and what may be left at most.
+fn cusps(certificate: &Certificate, units: LengthUnit) -> Option<String> {
+    let surfaces = || certificate.operations.iter().filter_map(|o| o.surface.as_ref());
+    let highest = surfaces().filter_map(|s| s.cusp).map(|c| c.value).max_by(f64::total_cmp)?;
+    let left = surfaces().map(|s| s.left_bound).fold(0.0, f64::max);
+    let decimals = if units == LengthUnit::Inch { 6 } else { 4 };
+    let shown = |v: f64| format!("{:.decimals$}", v / units.in_mm());
+    Some(format!("cusps of {}, nowhere more than {} {} left", shown(highest), shown(left), units.symbol()))
 }
 
 /// Blocks of the contours, and the proven lower bound where it is known for all of them.

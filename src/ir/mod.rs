@@ -12,6 +12,7 @@
 use crate::arena::{Arena, Handle};
 use crate::geom::cam::Cam;
 use crate::geom::curve::CurveRef;
+use crate::geom::surface::Net;
 use crate::geom::{Point3, Side};
 use crate::source::Span;
 use crate::units::{Angle, LengthUnit};
@@ -44,6 +45,8 @@ pub struct Program {
     pub tools: Arena<Tool>,
     /// Blanks.
     pub stocks: Arena<Stock>,
+    /// Surfaces.
+    pub nets: Arena<NetEntity>,
     /// Planar curves (`CURVE`, `LINE`, `CIRCLE`, chains, `TABCYL` …).
     pub curves: Arena<CurveEntity>,
     /// Where nodes came from.
@@ -81,6 +84,17 @@ pub struct CamEntity {
     pub name: String,
     /// The cam.
     pub cam: Cam,
+    /// Where it was declared.
+    pub origin: Handle<Origin>,
+}
+
+/// A named surface.
+#[derive(Debug, Clone)]
+pub struct NetEntity {
+    /// The user's name.
+    pub name: String,
+    /// The surface.
+    pub net: Net,
     /// Where it was declared.
     pub origin: Handle<Origin>,
 }
@@ -249,6 +263,8 @@ pub enum StepKind {
     Profile(Profile),
     /// `ROUGH` of a plate cam.
     RoughCam(RoughCam),
+    /// `SURFAC`.
+    Surface(Surface),
 }
 
 /// `CYCLE/ …`.
@@ -405,4 +421,55 @@ pub struct RoughCam {
     pub band: Band,
     /// Clearance plane, mm above Z0.
     pub clearance: f64,
+}
+
+/// Along what the passes of a surface run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+pub enum Along {
+    /// u, at constant v.
+    U,
+    /// v, at constant u.
+    V,
+    /// x, in planes of constant y.
+    X,
+    /// y, in planes of constant x.
+    Y,
+    /// u, at a constant height of cusps.
+    IsoCusp,
+}
+
+/// What decides about the distance of passes.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+pub enum Spacing {
+    /// Largest height of cusps, mm.
+    Cusp(f64),
+    /// Largest distance, mm.
+    Step(f64),
+}
+
+/// `SURFAC/`.
+#[derive(Debug, Clone)]
+pub struct Surface {
+    /// The user's label.
+    pub name: Option<String>,
+    /// The surface.
+    pub net: Handle<NetEntity>,
+    /// To and fro, or all in the same sense.
+    pub zigzag: bool,
+    /// Along what.
+    pub along: Along,
+    /// How close.
+    pub spacing: Spacing,
+    /// Lift the path where the cutter does not fit; otherwise that is an error.
+    pub avoid: bool,
+    /// The cutter.
+    pub tool: Handle<Tool>,
+    /// Stock to leave, mm.
+    pub leave: f64,
+    /// Tolerance.
+    pub band: Band,
+    /// Clearance plane, mm above Z0.
+    pub clearance: f64,
+    /// Top of the blank, mm, if one is declared.
+    pub stock_top: Option<f64>,
 }

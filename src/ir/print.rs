@@ -6,8 +6,9 @@
 use core::fmt::Write as _;
 
 use super::{
-    CamEntity, Coolant, CurveEntity, Cut, CutterKind, Entry, Feed, Flank, Interpolation, Machine, Origin,
-    Profile, ProfileTarget, Program, RoughCam, Spindle, StepKind, Stock, StockShape, Tool,
+    Along, CamEntity, Coolant, CurveEntity, Cut, CutterKind, Entry, Feed, Flank, Interpolation, Machine,
+    NetEntity, Origin, Profile, ProfileTarget, Program, RoughCam, Spacing, Spindle, StepKind, Stock,
+    StockShape, Surface, Tool,
 };
 use crate::arena::Handle;
 use crate::geom::cam::Rotation;
@@ -70,6 +71,9 @@ impl Printer<'_> {
         }
         for (handle, curve) in program.curves.iter() {
             self.line(Some(curve.origin), &format!("curve {handle:?} {}", curve_text(curve)));
+        }
+        for (handle, net) in program.nets.iter() {
+            self.line(Some(net.origin), &format!("net {handle:?} {}", net_text(net)));
         }
         for (handle, cam) in program.cams.iter() {
             self.cam(handle, cam);
@@ -264,11 +268,56 @@ fn step_text(kind: &StepKind) -> String {
         StepKind::Goto { to, rapid } => format!("{} {}", if *rapid { "rapid" } else { "goto" }, point(to)),
         StepKind::Profile(profile) => profile_text(profile),
         StepKind::RoughCam(rough) => rough_text(rough),
+        StepKind::Surface(surface) => surface_text(surface),
     }
 }
 
 fn named(name: Option<&String>) -> String {
     name.map_or_else(String::new, |n| format!(" {n}"))
+}
+
+fn net_text(net: &NetEntity) -> String {
+    let [rows, columns] = net.net.size();
+    let mut text = format!("{} {rows} x {columns} patches", net.name);
+    for patch in net.net.patches() {
+        let [m, n] = patch.degree();
+        let rational = if patch.is_rational() { " rational" } else { "" };
+        let _ = write!(text, "; degree {m} {n}{rational}");
+        for k in 0..(m + 1) * (n + 1) {
+            let (i, j) = (k / (n + 1), k % (n + 1));
+            let _ = write!(text, " {}", point(&patch.pole(i, j)));
+            if patch.is_rational() {
+                let _ = write!(text, "*{}", num(patch.weight(i, j)));
+            }
+        }
+    }
+    text
+}
+
+fn surface_text(surface: &Surface) -> String {
+    let along = match surface.along {
+        Along::U => "u",
+        Along::V => "v",
+        Along::X => "x",
+        Along::Y => "y",
+        Along::IsoCusp => "isocusp",
+    };
+    let spacing = match surface.spacing {
+        Spacing::Cusp(h) => format!("cusp {}", num(h)),
+        Spacing::Step(s) => format!("step {}", num(s)),
+    };
+    format!(
+        "surface{} {:?} {} {along} {spacing} {} tool {:?} leave {} intol {} outtol {} clearance {}",
+        named(surface.name.as_ref()),
+        surface.net,
+        if surface.zigzag { "zigzag" } else { "oneway" },
+        if surface.avoid { "avoid" } else { "check" },
+        surface.tool,
+        num(surface.leave),
+        num(surface.band.into),
+        num(surface.band.out),
+        num(surface.clearance)
+    )
 }
 
 const fn cut_text(cut: Cut) -> &'static str {

@@ -19,17 +19,17 @@ use crate::target::{
     axes,
 };
 
-/// Emits all records. `fitted` is what [`super::contour::fit_all`] gave.
+/// Emits all records. `fitted` is what [`super::contour::fit_all`] gave, `passes` what [`super::pass::fit_all`] gave.
 pub(super) fn program(
     cl: &Cl,
     capabilities: &Capabilities,
-    fitted: &[Option<Arc<Fitted>>],
+    (fitted, passes): (&[Option<Arc<Fitted>>], &[Option<Arc<super::pass::Chain>>]),
     sink: &mut Sink,
 ) -> Option<TargetProgram> {
     let first = cl.records.first()?.origin;
     let mut emitter = Emitter::new(cl, capabilities, sink, first, Tools::of(cl));
     emitter.event(BlockKind::Begin);
-    emitter.records(fitted);
+    emitter.records(fitted, passes);
     emitter.of_record = None;
     emitter.event(BlockKind::End);
     Some(emitter.finish().0)
@@ -75,7 +75,7 @@ pub(super) fn chunk(
         Some(carry) => emitter.resume(carry),
         None => emitter.event(BlockKind::Begin),
     }
-    emitter.records(&[]);
+    emitter.records(&[], &[]);
     emitter.of_record = None;
     if last {
         emitter.event(BlockKind::End);
@@ -200,11 +200,16 @@ impl<'a> Emitter<'a> {
         self.pecks_told = carry.pecks_told;
     }
 
-    fn records(&mut self, fitted: &[Option<Arc<Fitted>>]) {
+    fn records(&mut self, fitted: &[Option<Arc<Fitted>>], passes: &[Option<Arc<super::pass::Chain>>]) {
         let cl = self.cl;
         for (index, record) in cl.records.iter().enumerate() {
             self.origin = record.origin;
             self.of_record = u32::try_from(index).ok();
+            if let Some(Some(chain)) = passes.get(index) {
+                self.close_cycle();
+                self.pass(chain);
+                continue;
+            }
             self.record(index, record, fitted);
         }
     }
@@ -294,6 +299,8 @@ impl<'a> Emitter<'a> {
                 self.exact = Some(*point);
             }
             RecordKind::Circle(circle) => self.circle(circle),
+            // Fitted passes are emitted by themselves, and without a fit there is no program.
+            RecordKind::Pass(_) => {}
             RecordKind::BeginCycle(cycle) => self.begin_cycle(cycle),
             RecordKind::Hole(point) => self.hole(*point),
             RecordKind::EndCycle => self.end_cycle(),
@@ -512,6 +519,15 @@ impl<'a> Emitter<'a> {
         }
         let [x, y, z, r] = here;
         Position { x, y, z, r }
+    }
+
+    /// Straight from vertex to vertex.
+    fn pass(&mut self, chain: &[[i64; 3]]) {
+        for vertex in chain {
+            self.linear_record(*vertex);
+        }
+        let step = self.capabilities.grid.linear_step();
+        self.exact = chain.last().map(|v| Point3::from(v.map(|s| s as f64 * step)));
     }
 
     fn linear_record(&mut self, [x, y, z]: [i64; 3]) {

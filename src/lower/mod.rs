@@ -20,6 +20,7 @@ mod emit;
 mod feed;
 pub mod fit;
 mod lead;
+mod pass;
 mod path;
 mod rotary;
 pub mod stream;
@@ -35,8 +36,12 @@ use crate::target::{Capabilities, TargetProgram};
 pub fn lower(cl: &Cl, capabilities: &Capabilities, sink: &mut Sink) -> Option<TargetProgram> {
     let mut messages = Sink::default();
     let fitted = contour::fit_all(cl, capabilities, &mut messages);
-    let program =
-        if messages.has_errors() { None } else { emit::program(cl, capabilities, &fitted, &mut messages) };
+    let passes = pass::fit_all(cl, capabilities, &mut messages);
+    let program = if messages.has_errors() {
+        None
+    } else {
+        emit::program(cl, capabilities, (&fitted, &passes), &mut messages)
+    };
     let failed = messages.has_errors();
     sink.append(messages);
     program.filter(|_| !failed)

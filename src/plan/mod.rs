@@ -11,6 +11,7 @@ mod profile;
 mod room;
 mod rough;
 mod state;
+mod surface;
 #[cfg(test)]
 mod tests;
 mod track;
@@ -77,6 +78,7 @@ impl<'a> Planner<'a> {
             StepKind::EndCycle => self.end_cycle(origin),
             StepKind::Profile(profile) => self.profile(profile, origin),
             StepKind::RoughCam(rough) => self.rough(rough, origin),
+            StepKind::Surface(surface) => self.surface(surface, origin),
         }
     }
 

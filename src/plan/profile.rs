@@ -168,7 +168,7 @@ impl Planner<'_> {
 
 /// The guard of an operation that reaches `depth` mm below Z0.
 pub(super) fn guard(walls: Vec<Wall>, depth: f64) -> Guard {
-    Guard { walls, blank_radius: None, top: 0.0, bottom: -depth }
+    Guard { walls, bottom: -depth, ..Guard::default() }
 }
 
 /// Lead size when nothing is asked: the cutter's radius, within what is handy, mm.

@@ -109,7 +109,7 @@ impl Sheet {
         let band = Band { into: 0.01, out: 0.01 };
         let bottom = levels.iter().copied().fold(0.0, f64::min);
         let wall = Wall { centre: curve.clone(), part: Side::Left };
-        let guard = Guard { walls: vec![wall], blank_radius: None, top: 0.0, bottom };
+        let guard = Guard { walls: vec![wall], bottom, ..Guard::default() };
         let (kind, name, origin) = ("PROFIL", "SELFTEST".to_owned(), self.origin);
         self.cl.operations.push(Operation { name, kind, origin, band, guard, effort: None });
         let contour = Contour {

@@ -78,6 +78,7 @@ impl Analyser<'_> {
             Value::Entity(Entity::Cam(cam)) => self.cam_member(*cam, name),
             Value::Entity(Entity::Cutter(tool)) => cutter_member(&self.program.tools[*tool], name),
             Value::Entity(Entity::Stock(stock)) => self.stock_member(*stock, name),
+            Value::Entity(Entity::Net(net)) => self.net_member(*net, name),
             _ => None,
         }
     }

@@ -43,6 +43,7 @@ mod report;
 mod run;
 mod scope;
 mod slots;
+mod surface;
 mod table;
 mod tokens;
 mod transform;

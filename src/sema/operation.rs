@@ -1,4 +1,4 @@
-//! `PROFIL` and `ROUGH`.
+//! Operations: what they have in common, `PROFIL` and `ROUGH` of cams.
 
 use crate::arena::Handle;
 use crate::diag::codes::semantics as codes;
@@ -42,6 +42,7 @@ impl Analyser<'_> {
         if let Some(m) = self.arguments(statement, command) {
             match statement.word {
                 "ROUGH" => self.rough(&m, name),
+                "SURFAC" => self.surfac(&m, name),
                 _ => self.profil(&m, name),
             }
         }
@@ -53,7 +54,7 @@ impl Analyser<'_> {
     }
 
     /// The loaded cutter, after a check of all that a cut needs.
-    fn ready(&mut self, what: &str, m: &Matched) -> Option<Handle<Tool>> {
+    pub(super) fn ready(&mut self, what: &str, m: &Matched) -> Option<Handle<Tool>> {
         self.needs_tool(what, m.word);
         let tool = match self.state.tool {
             Setting::Set(tool, _) => Some(tool),
@@ -143,7 +144,7 @@ impl Analyser<'_> {
     }
 
     /// After an operation the cutter is somewhere above the part.
-    fn moved(&mut self) {
+    pub(super) fn moved(&mut self) {
         self.state.position = None;
         self.state.at_from = false;
         self.state.rapid = false;

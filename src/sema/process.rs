@@ -56,6 +56,8 @@ pub(super) struct State {
     pub band_at: Option<Span>,
     /// `THICK`, mm.
     pub thick: f64,
+    /// `CUSP`, mm.
+    pub cusp: Option<f64>,
     /// `CLEARP`, mm.
     pub clearance: f64,
     /// `RAPID` stands before the next move.
@@ -100,6 +102,7 @@ impl Default for State {
             band: DEFAULT_BAND,
             band_at: None,
             thick: 0.0,
+            cusp: None,
             clearance: DEFAULT_CLEARANCE,
             rapid: false,
             cycle: false,

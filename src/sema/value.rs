@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use crate::arena::Handle;
 use crate::geom::motion::Law;
-use crate::ir::{CamEntity, CurveEntity, Stock, Tool};
+use crate::ir::{CamEntity, CurveEntity, NetEntity, Stock, Tool};
 use crate::source::Span;
 use crate::units::{Dim, LengthUnit, Quantity, number};
 use crate::vocab::EntityKind;
@@ -114,6 +114,8 @@ pub enum Entity {
     Cutter(Handle<Tool>),
     /// A stock.
     Stock(Handle<Stock>),
+    /// A surface.
+    Net(Handle<NetEntity>),
     /// A labelled operation.
     Operation,
 }
@@ -134,6 +136,7 @@ impl Entity {
             Entity::Cam(_) => EntityKind::Cam,
             Entity::Cutter(_) => EntityKind::Cutter,
             Entity::Stock(_) => EntityKind::Stock,
+            Entity::Net(_) => EntityKind::Net,
             Entity::Operation => EntityKind::Operation,
         }
     }

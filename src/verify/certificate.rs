@@ -102,6 +102,38 @@ pub struct OperationProof {
     pub blocks: u32,
     /// Contours in the order they are cut.
     pub pieces: Vec<PieceProof>,
+    /// The finished surface, where the operation finishes one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub surface: Option<SurfaceProof>,
+}
+
+/// What was proven of a finished surface.
+#[derive(Debug, Clone, Serialize)]
+pub struct SurfaceProof {
+    /// Radius of the ball, mm.
+    pub radius: f64,
+    /// Stock that was to be left, mm.
+    pub leave: f64,
+    /// Largest height of cusps asked for, mm, if one was.
+    pub cusp_asked: Option<f64>,
+    /// Passes, and ways along the surface from one to the next.
+    pub passes: u32,
+    /// NC blocks of all of them.
+    pub blocks: u32,
+    /// Length of the tip's path along them, mm.
+    pub length: f64,
+    /// Deepest gouge of any move of the operation.
+    pub into: Deviation,
+    /// Farthest that a pass leaves the surface, as the ball sees it.
+    pub out: Deviation,
+    /// Highest ridge between passes above the path's own deviation beside it, as measured at the corners of all cells.
+    pub cusp: Option<Deviation>,
+    /// Most material found anywhere the ball can reach; 0 where it is less than half of what is allowed.
+    pub left: Deviation,
+    /// No more than this is left anywhere the ball can reach, mm; likewise.
+    pub left_bound: f64,
+    /// Most material found where the ball does not reach for its size.
+    pub unreachable: Option<Deviation>,
 }
 
 /// What was proven of one contour at one height.
@@ -164,6 +196,7 @@ impl OperationProof {
             out: None,
             blocks: 0,
             pieces: Vec::new(),
+            surface: None,
         }
     }
 }

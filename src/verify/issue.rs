@@ -2,6 +2,7 @@
 
 use sha2::{Digest, Sha256};
 
+use super::Proofs;
 use super::certificate::{Certificate, Moves, OperationProof, RAPID_RATE, TIME_MODEL, Time, VERSION};
 use super::pieces::Proof;
 use super::{ACCURACY, Case, Emitted};
@@ -13,7 +14,7 @@ pub(super) fn certificate(
     trace: &Trace,
     emitted: &Emitted,
     control: &str,
-    proofs: Vec<Proof>,
+    proofs: Proofs,
 ) -> Certificate {
     let text = &emitted.text;
     Certificate {
@@ -88,19 +89,26 @@ pub(super) fn add_time(case: &Case<'_>, trace: &Trace, time: &mut Time) {
     }
 }
 
-fn operations(case: &Case<'_>, proofs: Vec<Proof>) -> Vec<OperationProof> {
+fn operations(case: &Case<'_>, proofs: Proofs) -> Vec<OperationProof> {
     let mut operations: Vec<OperationProof> = case
         .cl
         .operations
         .iter()
         .map(|o| OperationProof::unmeasured(o, Some(case.cl.origins[o.origin].span)))
         .collect();
-    for Proof { operation, proof } in proofs {
+    for Proof { operation, proof } in proofs.contours {
         let Some(of) = operations.get_mut(operation) else { continue };
         of.into = Some(proof.into.or_larger(of.into));
         of.out = Some(proof.out.or_larger(of.out));
         of.blocks = of.blocks.saturating_add(proof.blocks);
         of.pieces.push(proof);
+    }
+    for surface in proofs.surfaces {
+        let Some(of) = operations.get_mut(surface.operation) else { continue };
+        of.into = Some(surface.proof.into);
+        of.out = Some(surface.proof.out);
+        of.blocks = surface.proof.blocks;
+        of.surface = Some(surface.proof);
     }
     operations
 }

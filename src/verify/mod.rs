@@ -6,6 +6,7 @@
 //!   ([`follow`], [`measure`]: exact per primitive, bounded and refined, no sampling error above 1e-6 mm);
 //! - no move goes deeper into a finished wall than its tolerance allows; no rapid runs below the part's top but straight
 //!   up, or clear of the blank ([`guard`]);
+//! - a finished surface is gouged nowhere, and nowhere is more left on it than allowed ([`surface`]);
 //! - every arc, helix and drilled hole of the CL data is made as asked ([`circles`], [`holes`]), every dwell, stop and tool
 //!   change stands where it was asked for and nowhere else ([`events`]);
 //! - every cut has its feed, its spindle, its tool and its coolant ([`state`]); every block ends where the lowered program says, and
@@ -51,12 +52,14 @@ mod random_tests;
 mod spline;
 mod state;
 pub mod stream;
+mod surface;
 #[cfg(test)]
 mod tests;
 mod tree;
 
 pub use certificate::{
-    Certificate, Deviation, Moves, OperationProof, PieceProof, Place, RAPID_RATE, TIME_MODEL, Time, VERSION,
+    Certificate, Deviation, Moves, OperationProof, PieceProof, Place, RAPID_RATE, SurfaceProof, TIME_MODEL,
+    Time, VERSION,
 };
 
 use finding::{Finding, Reporter};
@@ -309,6 +312,12 @@ fn spans(cl: &Cl, target: &TargetProgram, happenings: &[Happening<'_>]) -> Vec<(
     spans
 }
 
+/// What was measured of the operations.
+struct Proofs {
+    contours: Vec<pieces::Proof>,
+    surfaces: Vec<surface::Proof>,
+}
+
 /// All checks; findings in the order of the text.
 fn check(
     case: &Case<'_>,
@@ -316,9 +325,11 @@ fn check(
     lines: &Lines,
     block_lines: &[(u32, u32)],
     before: Option<crate::geom::Point3>,
-) -> (Vec<Finding>, Vec<pieces::Proof>) {
+) -> (Vec<Finding>, Proofs) {
     let rails = guard::Rails::new(case);
-    let (mut findings, proofs) = pieces::all(case, &rails);
+    let (mut findings, contours) = pieces::all(case, &rails);
+    let (found, surfaces) = surface::all(case);
+    findings.extend(found);
     findings.extend(finding::of_control(trace, lines));
     let guards = guard::Guards::new(case, &rails);
     let others: Vec<Finding> = case
@@ -338,5 +349,5 @@ fn check(
     findings.extend(circles::all(case));
     findings.extend(events::all(case));
     findings.sort_by_key(Finding::line);
-    (findings, proofs)
+    (findings, Proofs { contours, surfaces })
 }

@@ -49,8 +49,8 @@ pub(super) fn cl(interpolation: Interpolation, band: Band) -> Cl {
     let guard = Guard {
         walls: vec![Wall { centre, part: Side::Left }],
         blank_radius: Some(40.0),
-        top: 0.0,
         bottom: -4.0,
+        ..Guard::default()
     };
     cl.operations.push(Operation {
         name: "FINISH".to_owned(),

@@ -17,7 +17,6 @@ const fn later(word: &'static str, help: &'static str) -> Statement {
 
 /// Rows of the table.
 pub const ROWS: &[Statement] = &[
-    later("NET", "a Bezier control net"),
     later("SPHERE", "a sphere"),
     later("CYLNDR", "a cylinder"),
     later("CONE", "a cone"),
@@ -28,13 +27,11 @@ pub const ROWS: &[Statement] = &[
     later("QADRIC", "a quadric surface"),
     later("POLCON", "a polyconic surface"),
     later("RLDSRF", "a ruled surface"),
-    later("SURFAC", "surface finishing"),
     later("POCKET", "pocket milling"),
     later("FACE", "face milling"),
     later("FORCES", "cutting forces"),
     later("OPTFED", "feed scheduling"),
     later("COMPEN", "deflection compensation"),
-    later("CUSP", "height of cusps between passes"),
     later("ORIGIN", "origin of the part on the machine"),
     later("REFSYS", "frame of definitions"),
     later("COPY", "copies of a tool path"),

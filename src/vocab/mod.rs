@@ -23,6 +23,7 @@ mod process;
 mod program;
 pub mod reference;
 mod space;
+mod surfaces;
 
 pub use functions::{FUNCTIONS, Function, FunctionId};
 pub use operations::GOTO_WITH_AXIS;
@@ -127,6 +128,8 @@ pub enum EntityKind {
     Cutter,
     /// `STOCK`
     Stock,
+    /// `NET`
+    Net,
     /// A labelled operation
     Operation,
 }
@@ -149,6 +152,7 @@ impl EntityKind {
             EntityKind::Cam => "a cam",
             EntityKind::Cutter => "a cutter",
             EntityKind::Stock => "a stock",
+            EntityKind::Net => "a net",
             EntityKind::Operation => "an operation",
         }
     }
@@ -169,6 +173,7 @@ impl EntityKind {
             EntityKind::Cam => "CAM",
             EntityKind::Cutter => "CUTTER",
             EntityKind::Stock => "STOCK",
+            EntityKind::Net => "NET",
             EntityKind::Operation => "PROFIL",
         }
     }
@@ -367,7 +372,7 @@ const NOT_NEGATIVE: Kind = Kind::Number(Dim::LENGTH, Range::NotNegative);
 const ANGLE: Kind = Kind::Number(Dim::ANGLE, Range::Any);
 
 /// The table, by group.
-pub const TABLE: [&[Statement]; 9] = [
+pub const TABLE: [&[Statement]; 11] = [
     program::ROWS,
     geometry::ROWS,
     curves::ROWS,
@@ -376,6 +381,8 @@ pub const TABLE: [&[Statement]; 9] = [
     process::ROWS,
     operations::MOTION,
     operations::ROWS,
+    surfaces::NETS,
+    surfaces::OPERATIONS,
     later::ROWS,
 ];
 

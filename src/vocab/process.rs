@@ -251,6 +251,7 @@ const THICK: &[Form] = &[form(
     )],
     &[],
 )];
+const CUSP: &[Form] = &[form("height", "", &[value("height", POSITIVE, "height")], &[])];
 const CLEARP: &[Form] = &[
     form("height", "", &[value("height", POSITIVE, "height above Z0")], &[]),
     form(
@@ -379,6 +380,7 @@ pub const ROWS: &[Statement] = &[
     row("TOLER", "sets OUTTOL to the value and INTOL to 0", "TOLER/ 0.01", TOLER),
     row("THICK", "stock to leave on later contours", "THICK/ 0.3", THICK),
     row("TRACUT", "transforms the points of FROM, GOTO and GODLTA", "TRACUT/ M1", TRACUT),
+    row("CUSP", "largest height of the cusps between the passes of later finishing", "CUSP/ 0.01", CUSP),
     row("CLEARP", "clearance plane for travel between cuts", "CLEARP/ 5", CLEARP),
     row(
         "CYCLE",

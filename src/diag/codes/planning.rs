@@ -149,6 +149,48 @@ pub const DRILL_MILLS: Code = Code {
     page: include_str!("../../../docs/diagnostics/E0516.md"),
 };
 
+/// the cutter cannot finish a surface.
+pub const NO_BALL: Code = Code {
+    id: "E0540",
+    title: "the cutter cannot finish a surface",
+    page: include_str!("../../../docs/diagnostics/E0540.md"),
+};
+
+/// the cutter is too large for the surface.
+pub const SURFACE_TOO_HOLLOW: Code = Code {
+    id: "E0541",
+    title: "the cutter is too large for the surface",
+    page: include_str!("../../../docs/diagnostics/E0541.md"),
+};
+
+/// the cutter cannot reach all of the surface.
+pub const SURFACE_LIFTED: Code = Code {
+    id: "W0541",
+    title: "the cutter cannot reach all of the surface",
+    page: include_str!("../../../docs/diagnostics/W0541.md"),
+};
+
+/// the surface has no side that the cutter could reach.
+pub const OVERHANG: Code = Code {
+    id: "E0542",
+    title: "the surface has no side that the cutter could reach",
+    page: include_str!("../../../docs/diagnostics/E0542.md"),
+};
+
+/// the clearance plane lies below the surface.
+pub const CLEARANCE_TOO_LOW: Code = Code {
+    id: "E0543",
+    title: "the clearance plane lies below the surface",
+    page: include_str!("../../../docs/diagnostics/E0543.md"),
+};
+
+/// no passes can be laid over the surface.
+pub const NO_PASSES: Code = Code {
+    id: "E0544",
+    title: "no passes can be laid over the surface",
+    page: include_str!("../../../docs/diagnostics/E0544.md"),
+};
+
 /// All codes of this area.
 pub const ALL: &[&Code] = &[
     &NO_TOOL,
@@ -172,4 +214,10 @@ pub const ALL: &[&Code] = &[
     &NO_ROOM_FOR_LEAD,
     &TAPERED_WALL,
     &HOLDER_RUBS,
+    &NO_BALL,
+    &SURFACE_TOO_HOLLOW,
+    &SURFACE_LIFTED,
+    &OVERHANG,
+    &CLEARANCE_TOO_LOW,
+    &NO_PASSES,
 ];

@@ -234,6 +234,13 @@ pub const IGNORED: Code = Code {
     page: include_str!("../../../docs/diagnostics/N0261.md"),
 };
 
+/// nothing says how close the passes are.
+pub const NO_SPACING: Code = Code {
+    id: "E0245",
+    title: "nothing says how close the passes are",
+    page: include_str!("../../../docs/diagnostics/E0245.md"),
+};
+
 /// All codes of this area.
 pub const ALL: &[&Code] = &[
     &UNKNOWN_WORD,
@@ -280,4 +287,5 @@ pub const ALL: &[&Code] = &[
     &POWER_ORDER,
     &AFTER_FINI,
     &IGNORED,
+    &NO_SPACING,
 ];

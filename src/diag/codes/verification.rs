@@ -79,6 +79,20 @@ pub const NOT_AS_LOWERED: Code = Code {
     page: include_str!("../../../docs/diagnostics/E0811.md"),
 };
 
+/// the cutter goes into a finished surface.
+pub const SURFACE_GOUGED: Code = Code {
+    id: "E0820",
+    title: "the cutter goes into a finished surface",
+    page: include_str!("../../../docs/diagnostics/E0820.md"),
+};
+
+/// more is left on a surface than its tolerances allow.
+pub const SURFACE_LEFT: Code = Code {
+    id: "E0821",
+    title: "more is left on a surface than its tolerances allow",
+    page: include_str!("../../../docs/diagnostics/E0821.md"),
+};
+
 /// All codes of this area.
 pub const ALL: &[&Code] = &[
     &OUT_OF_TOLERANCE,
@@ -92,4 +106,6 @@ pub const ALL: &[&Code] = &[
     &LEFT_TO_SETTINGS,
     &CANNOT_PROVE,
     &NOT_AS_LOWERED,
+    &SURFACE_GOUGED,
+    &SURFACE_LEFT,
 ];

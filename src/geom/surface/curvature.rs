@@ -219,20 +219,31 @@ fn curvature(derivatives: &Derivatives, u: (f64, f64), v: (f64, f64)) -> Option<
 }
 
 /// A patch's homogeneous derivatives to third order.
-struct Derivatives {
+#[derive(Debug, Clone)]
+pub(super) struct Derivatives {
     /// h, h_u, h_v, h_uu, h_uv, h_vv, h_uuu, h_uuv, h_uvv, h_vvv.
     orders: [Patch; 10],
     rational: bool,
 }
 
 impl Derivatives {
-    fn new(patch: &Patch) -> Self {
+    pub(super) fn new(patch: &Patch) -> Self {
         let [hu, hv] = [patch.hodograph(0), patch.hodograph(1)];
         let [huu, huv, hvv] = [hu.hodograph(0), hu.hodograph(1), hv.hodograph(1)];
         let third = [huu.hodograph(0), huu.hodograph(1), hvv.hodograph(0), hvv.hodograph(1)];
         let [huuu, huuv, huvv, hvvv] = third;
         let orders = [patch.clone(), hu, hv, huu, huv, hvv, huuu, huuv, huvv, hvvv];
         Derivatives { orders, rational: patch.is_rational() }
+    }
+    /// Enclosures of r_u, r_v, r_uu, r_uv, r_vv over a box.
+    pub(super) fn boxes(&self, u: (f64, f64), v: (f64, f64)) -> [[Interval; 3]; 5] {
+        if self.rational {
+            return self.over(u, v).map(|triple| triple.map(|d| d.value));
+        }
+        core::array::from_fn(|d| {
+            let [x, y, z, _] = hulls(&self.orders[d + 1].restrict(u, v));
+            [x, y, z]
+        })
     }
     /// r_u, r_v, r_uu, r_uv, r_vv with their gradients over a box.
     fn over(&self, u: (f64, f64), v: (f64, f64)) -> [Triple; 5] {
@@ -266,7 +277,7 @@ fn project(parts: &[[Dual; 6]; 3], w: &[Dual; 6]) -> [Triple; 5] {
 }
 
 /// The hulls of the four homogeneous coordinates of the poles.
-fn hulls(patch: &Patch) -> [Interval; 4] {
+pub(super) fn hulls(patch: &Patch) -> [Interval; 4] {
     let mut poles = patch.homogeneous().iter();
     let first = poles.next().map_or([0.0; 4], |h| [h.x, h.y, h.z, h.w]);
     let hull = poles.fold(first.map(Interval::point), |acc, h| {

@@ -4,9 +4,17 @@
 //! normal curvature is positive where the surface is **concave**, that is, curves towards the tool.
 
 pub mod curvature;
+pub mod drop;
 pub mod interval;
 pub mod net;
 pub mod patch;
+pub mod ridge;
+pub mod swept;
+pub mod track;
+pub mod tree;
 
+pub use drop::{Contact, drop_ball};
 pub use net::{Net, NetIssue};
 pub use patch::{Patch, SurfaceJet};
+pub use track::{Guide, Track};
+pub use tree::{Foot, SurfaceTree};

@@ -23,15 +23,6 @@ pub enum NetIssue {
     },
     /// A coordinate or weight that is not finite, or a weight that is not positive.
     NotFinite,
-    /// A patch whose r_u × r_v vanishes on a whole edge or at a corner, or that folds back: patch (i, j), (u, v).
-    Degenerate {
-        /// Patch row and column.
-        patch: [usize; 2],
-        /// Parameters inside the patch.
-        at: [f64; 2],
-        /// The point, mm.
-        point: Point3,
-    },
 }
 
 /// How two neighbouring patches meet.
@@ -106,6 +97,12 @@ impl Net {
     /// The patch that holds (u, v), and the parameters inside it; outside the net, the nearest.
     #[must_use]
     pub fn locate(&self, u: f64, v: f64) -> (&Patch, f64, f64) {
+        let (patch, s, t) = self.place(u, v);
+        (&self.patches[patch], s, t)
+    }
+    /// The index of the patch that holds (u, v), and the parameters inside it; outside the net, the nearest.
+    #[must_use]
+    pub fn place(&self, u: f64, v: f64) -> (usize, f64, f64) {
         let split = |t: f64, n: usize| {
             let t = t.clamp(0.0, crate::math::count(n));
             let mut k = 0;
@@ -116,7 +113,7 @@ impl Net {
         };
         let (i, s) = split(u, self.rows);
         let (j, t) = split(v, self.columns);
-        (&self.patches[i * self.columns + j], s, t)
+        (i * self.columns + j, s, t)
     }
     /// Surface point and derivatives at net parameters.
     #[must_use]

@@ -153,6 +153,9 @@ impl Patch {
     #[must_use]
     pub fn jet(&self, u: f64, v: f64) -> SurfaceJet {
         let [m, n] = self.degree;
+        if [m, n] == [3, 3] && !self.rational {
+            return self.bicubic_jet(u, v);
+        }
         let (b0, b1, b2) = bernstein_jet(m, u);
         let (c0, c1, c2) = bernstein_jet(n, v);
         let [h, hu, hv, huu, huv, hvv] = self.sums([&b0, &b1, &b2], [&c0, &c1, &c2]);
@@ -167,6 +170,28 @@ impl Patch {
             uv: huv.xyz(),
             vv: hvv.xyz(),
         }
+    }
+    /// [`Patch::jet`] of a polynomial bicubic patch, the most frequent one by far.
+    fn bicubic_jet(&self, u: f64, v: f64) -> SurfaceJet {
+        let (b, c) = (cubic(u), cubic(v));
+        let mut out = [Vec3::zeros(); 6];
+        for (i, row) in self.poles.chunks_exact(4).enumerate() {
+            let mut r = [Vec3::zeros(); 3];
+            for (j, pole) in row.iter().enumerate() {
+                let pole = Vec3::new(pole.x, pole.y, pole.z);
+                for (sum, basis) in r.iter_mut().zip(&c) {
+                    *sum += pole * basis[j];
+                }
+            }
+            out[0] += r[0] * b[0][i];
+            out[1] += r[0] * b[1][i];
+            out[2] += r[1] * b[0][i];
+            out[3] += r[0] * b[2][i];
+            out[4] += r[1] * b[1][i];
+            out[5] += r[2] * b[0][i];
+        }
+        let [p, u, v, uu, uv, vv] = out;
+        SurfaceJet { p: Point3::from(p), u, v, uu, uv, vv }
     }
     fn sum(&self, b: &Basis, c: &Basis) -> Homogeneous {
         let n = self.degree[1] + 1;
@@ -281,6 +306,17 @@ fn bernstein_jet(n: usize, t: f64) -> (Basis, Basis, Basis) {
     let first = down(&b1, n);
     let second = if n >= 2 { down(&down(&bernstein(n - 2, t), n - 1), n) } else { [0.0; MAX_DEGREE + 1] };
     (b, first, second)
+}
+
+/// Cubic Bernstein polynomials at `t` with first and second derivatives.
+fn cubic(t: f64) -> [[f64; 4]; 3] {
+    let s = 1.0 - t;
+    let (s2, st, t2) = (s * s, s * t, t * t);
+    [
+        [s2 * s, 3.0 * s2 * t, 3.0 * s * t2, t2 * t],
+        [-3.0 * s2, 3.0 * s2 - 6.0 * st, 6.0 * st - 3.0 * t2, 3.0 * t2],
+        [6.0 * s, 6.0 * t - 12.0 * s, 6.0 * s - 12.0 * t, 6.0 * t],
+    ]
 }
 
 /// Derivatives of the projection of a homogeneous surface.

@@ -23,6 +23,7 @@ mod lines;
 pub mod measure;
 mod near;
 pub mod nurbs;
+pub mod ribbon;
 #[cfg(test)]
 mod samples;
 mod search;

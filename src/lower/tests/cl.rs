@@ -46,7 +46,7 @@ impl Draft {
             origin: self.origin,
             band: contour.band,
             effort: None,
-            guard: Guard { walls: vec![wall], blank_radius: None, top: 0.0, bottom: -5.0 },
+            guard: Guard { walls: vec![wall], bottom: -5.0, ..Guard::default() },
         });
         let index = u32::try_from(self.cl.operations.len()).unwrap() - 1;
         self.add(RecordKind::BeginOperation(index))

@@ -1,0 +1,640 @@
+//! The point of a net nearest to a point in space, certain to be the nearest of all.
+//!
+//! The net is cut into *leaves* (parameter rectangles of its patches) under a tree of bounding boxes. A branch or
+//! leaf whose bound lies beyond the best distance known is left alone. On a leaf where the Hessian of
+//! F(u,v) = |x - r(u,v)|²/2, that is G - (x - r)·D, is positive definite by interval arithmetic, F is convex, so
+//! that Newton's method over the rectangle gives the one minimum; where it is not, the leaf is cut up further.
+
+use core::cell::RefCell;
+
+use super::curvature::{Derivatives, hulls};
+use super::interval::Interval;
+use super::net::Net;
+use super::patch::{Patch, SurfaceJet};
+use crate::geom::{Point3, Vec3};
+
+/// The foot of a point on a surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Foot {
+    /// Index of the patch.
+    pub patch: usize,
+    /// Parameters inside the patch.
+    pub uv: [f64; 2],
+    /// The surface point, mm.
+    pub point: Point3,
+    /// Distance from the point asked about, mm.
+    pub distance: f64,
+    /// No point of the surface is nearer than this, mm (the same as `distance` but where the search was given up).
+    pub certain: f64,
+}
+
+/// A net prepared for questions of distance.
+#[derive(Debug)]
+pub struct SurfaceTree {
+    net: Net,
+    derivatives: Vec<Derivatives>,
+    nodes: Vec<Node>,
+    leaves: Vec<Leaf>,
+    upright: bool,
+}
+
+/// Bounding box with children, or a leaf.
+#[derive(Debug, Clone, Copy)]
+struct Node {
+    low: [f64; 3],
+    high: [f64; 3],
+    kind: Kind,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Kind {
+    /// First child and how many.
+    Branch(u32, u32),
+    Leaf(u32),
+}
+
+/// A parameter rectangle of one patch.
+#[derive(Debug, Clone)]
+struct Leaf {
+    patch: usize,
+    area: Area,
+    hull: [Interval; 3],
+    slab: Slab,
+    bend: Bend,
+}
+
+/// What the Hessian of F takes from the derivatives over a rectangle, for a quick test of convexity.
+#[derive(Debug, Clone, Copy)]
+struct Bend {
+    /// Lower bounds of r_u² and r_v².
+    squares: [f64; 2],
+    /// Middle and half width of r_u·r_v.
+    mixed: (f64, f64),
+    /// Middles and half widths of r_uu, r_uv, r_vv.
+    second: [(Vec3, Vec3); 3],
+}
+
+impl Bend {
+    /// Relative slack for rounding: a few dozen operations.
+    const ROUNDING: f64 = 1e-13;
+
+    fn new(derivatives: &[[Interval; 3]; 5]) -> Bend {
+        let [ru, rv, ruu, ruv, rvv] = derivatives;
+        let squares = |a: &[Interval; 3]| (a[0].square() + a[1].square() + a[2].square()).lo;
+        let mixed = ru[0] * rv[0] + ru[1] * rv[1] + ru[2] * rv[2];
+        let split = |a: &[Interval; 3]| {
+            let middle = a.map(|i| 0.5 * (i.lo + i.hi));
+            let half = core::array::from_fn(|k| (a[k].hi - middle[k]).max(middle[k] - a[k].lo));
+            (Vec3::from(middle), Vec3::from(half))
+        };
+        let middle = 0.5 * (mixed.lo + mixed.hi);
+        Bend {
+            squares: [squares(ru), squares(rv)],
+            mixed: (middle, (mixed.hi - middle).max(middle - mixed.lo)),
+            second: [split(ruu), split(ruv), split(rvv)],
+        }
+    }
+
+    /// Whether G - offset·D is positive definite for all offsets within `half` of `middle`, over the whole rectangle.
+    fn convex(&self, middle: Vec3, half: Vec3) -> bool {
+        let size = middle.abs();
+        let products = self.second.map(|(c, r)| {
+            let spread = size.dot(&r) + c.abs().dot(&half) + half.dot(&r);
+            let value = middle.dot(&c);
+            (value, spread + Bend::ROUNDING * (size.dot(&c.abs()) + spread))
+        });
+        let low =
+            |k: usize, i: usize| self.squares[k] * (1.0 - Bend::ROUNDING) - products[i].0 - products[i].1;
+        let (h11, h22) = (low(0, 0), low(1, 2));
+        let most = (self.mixed.0 - products[1].0).abs() + self.mixed.1 + products[1].1;
+        h11 > 0.0 && h22 > 0.0 && h11 * h22 > most * most * (1.0 + Bend::ROUNDING)
+    }
+}
+
+/// Parameter rectangle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Area {
+    u: (f64, f64),
+    v: (f64, f64),
+}
+
+impl Area {
+    const WHOLE: Area = Area { u: (0.0, 1.0), v: (0.0, 1.0) };
+
+    fn middle(&self) -> [f64; 2] {
+        [0.5 * (self.u.0 + self.u.1), 0.5 * (self.v.0 + self.v.1)]
+    }
+    fn quarters(&self) -> [Area; 4] {
+        let [mu, mv] = self.middle();
+        let (low, high) = ((self.u.0, mu), (mu, self.u.1));
+        let (left, right) = ((self.v.0, mv), (mv, self.v.1));
+        [(low, left), (low, right), (high, left), (high, right)].map(|(u, v)| Area { u, v })
+    }
+    fn clamp(&self, [u, v]: [f64; 2]) -> [f64; 2] {
+        [u.clamp(self.u.0, self.u.1), v.clamp(self.v.0, self.v.1)]
+    }
+    fn contains(&self, [u, v]: [f64; 2]) -> bool {
+        (self.u.0..=self.u.1).contains(&u) && (self.v.0..=self.v.1).contains(&v)
+    }
+}
+
+/// A flat cylinder about a piece of surface: centre, axis, range along the axis, radius.
+#[derive(Debug, Clone, Copy)]
+struct Slab {
+    centre: Point3,
+    axis: Vec3,
+    low: f64,
+    high: f64,
+    radius: f64,
+}
+
+impl Slab {
+    /// About the poles of a piece of surface, which hold it.
+    fn new(patch: &Patch) -> Slab {
+        let jet = patch.jet(0.5, 0.5);
+        let axis = jet.normal().unwrap_or_else(Vec3::z);
+        let mut slab = Slab { centre: jet.p, axis, low: 0.0, high: 0.0, radius: 0.0 };
+        let [m, n] = patch.degree();
+        for k in 0..(m + 1) * (n + 1) {
+            let offset = patch.pole(k / (n + 1), k % (n + 1)) - slab.centre;
+            let along = offset.dot(&axis);
+            slab.low = slab.low.min(along);
+            slab.high = slab.high.max(along);
+            slab.radius = slab.radius.max((offset - axis * along).norm());
+        }
+        slab
+    }
+    /// No point of the piece is nearer to `x` than this.
+    fn distance(&self, x: Point3) -> f64 {
+        let offset = x - self.centre;
+        let along = offset.dot(&self.axis);
+        let beside = (offset.norm_squared() - along * along).max(0.0).sqrt();
+        let (aside, above) =
+            ((beside - self.radius).max(0.0), (along - self.high).max(self.low - along).max(0.0));
+        (aside * aside + above * above).sqrt()
+    }
+}
+
+/// Leaves have at most this depth below their patch when the tree is made.
+const DEEPEST: u32 = 7;
+/// … and at least this.
+const SHALLOWEST: u32 = 3;
+/// Newton steps that move the point by less, mm, end the iteration; the distance errs by its square.
+const SETTLED: f64 = 1e-7;
+/// Rectangles of non-convex leaves that one question may examine.
+const MOST_PIECES: u32 = 4_000;
+/// Distances that agree so well are the same, mm.
+const SAME: f64 = 1e-10;
+
+impl SurfaceTree {
+    /// Prepares `net` for points up to about `reach` mm from it: there, leaves are made so small that the distance
+    /// is convex over each, where the surface's curvature allows.
+    #[must_use]
+    pub fn new(net: Net, reach: f64) -> SurfaceTree {
+        let derivatives: Vec<Derivatives> = net.patches().iter().map(Derivatives::new).collect();
+        let mut tree = SurfaceTree { net, derivatives, nodes: Vec::new(), leaves: Vec::new(), upright: true };
+        let [rows, columns] = tree.net.size();
+        tree.nodes.push(EMPTY);
+        let root = tree.block((0, rows), (0, columns), reach);
+        tree.nodes[0] = root;
+        tree
+    }
+    /// The net.
+    #[must_use]
+    pub fn net(&self) -> &Net {
+        &self.net
+    }
+    /// Lowest and highest corner of a box that holds the surface, mm.
+    #[must_use]
+    pub fn bounds(&self) -> (Point3, Point3) {
+        let root = &self.nodes[0];
+        (Point3::from(root.low), Point3::from(root.high))
+    }
+    /// Whether the normal is proven to have a component along z everywhere, always of the same sense on a patch: the
+    /// surface has no overhang and no vertical wall.
+    #[must_use]
+    pub fn is_upright(&self) -> bool {
+        self.upright
+    }
+    /// The number of leaves.
+    #[must_use]
+    pub fn leaves(&self) -> usize {
+        self.leaves.len()
+    }
+
+    /// A node over a block of patches.
+    fn block(&mut self, rows: (usize, usize), columns: (usize, usize), reach: f64) -> Node {
+        if rows.1 - rows.0 == 1 && columns.1 - columns.0 == 1 {
+            let patch = rows.0 * self.net.size()[1] + columns.0;
+            let whole = self.net.patches()[patch].clone();
+            return self.node(patch, &whole, Area::WHOLE, 0, reach);
+        }
+        let halves = |(a, b): (usize, usize)| match b - a {
+            1 => vec![(a, b)],
+            n => vec![(a, a + n / 2), (a + n / 2, b)],
+        };
+        let mut parts = Vec::new();
+        for r in halves(rows) {
+            for c in halves(columns) {
+                parts.push((r, c));
+            }
+        }
+        let first = self.nodes.len();
+        self.nodes.resize(first + parts.len(), EMPTY);
+        for (k, (r, c)) in parts.iter().enumerate() {
+            self.nodes[first + k] = self.block(*r, *c, reach);
+        }
+        self.branch(first, parts.len())
+    }
+
+    fn branch(&self, first: usize, count: usize) -> Node {
+        let mut node = EMPTY;
+        for child in &self.nodes[first..first + count] {
+            for i in 0..3 {
+                node.low[i] = node.low[i].min(child.low[i]);
+                node.high[i] = node.high[i].max(child.high[i]);
+            }
+        }
+        node.kind = Kind::Branch(index(first), index(count));
+        node
+    }
+
+    /// A node over a rectangle of a patch; `piece` is that part of it.
+    fn node(&mut self, patch: usize, piece: &Patch, area: Area, depth: u32, reach: f64) -> Node {
+        let boxes = (depth >= SHALLOWEST).then(|| self.derivatives[patch].boxes(area.u, area.v));
+        let hull = hull(piece);
+        let slab = Slab::new(piece);
+        if let Some(derivatives) = boxes {
+            let size = 2.0 * slab.radius;
+            let fits = convex(&derivatives, &cone(&derivatives, reach, size)) && size < reach.max(1e-3);
+            if fits || depth >= DEEPEST {
+                self.upright &= rises(&derivatives);
+                let bend = Bend::new(&derivatives);
+                self.leaves.push(Leaf { patch, area, hull, slab, bend });
+                let kind = Kind::Leaf(index(self.leaves.len() - 1));
+                return Node { low: hull.map(|i| i.lo), high: hull.map(|i| i.hi), kind };
+            }
+        }
+        let first = self.nodes.len();
+        self.nodes.resize(first + 4, EMPTY);
+        let quarters = Area::WHOLE.quarters();
+        for (k, (part, inside)) in area.quarters().iter().zip(quarters).enumerate() {
+            let child = piece.restrict(inside.u, inside.v);
+            self.nodes[first + k] = self.node(patch, &child, *part, depth + 1, reach);
+        }
+        self.branch(first, 4)
+    }
+
+    /// The foot of `x`: the nearest point of the whole surface. `hint`: a foot of a point near by.
+    #[must_use]
+    pub fn nearest(&self, x: Point3, hint: Option<&Foot>) -> Foot {
+        self.nearest_within(x, hint, f64::INFINITY)
+    }
+
+    /// The foot of `x`, if it is nearer than `within`; else some point of the surface, and `certain` is `within` or
+    /// more. Far from the surface this is much quicker than the exact foot.
+    #[must_use]
+    pub fn nearest_within(&self, x: Point3, hint: Option<&Foot>, within: f64) -> Foot {
+        let start = match hint {
+            Some(foot) => (foot.patch, Area::WHOLE.clamp(foot.uv)),
+            None => self.guess(x),
+        };
+        let first = descend(&self.net.patches()[start.0], x, start.1, &Area::WHOLE);
+        let best = first.foot(start.0);
+        let limit = best.distance.min(within);
+        let mut quest = Quest { tree: self, x, best, limit, open: f64::INFINITY };
+        STACK.with_borrow_mut(|stack| quest.run(stack));
+        quest.finish()
+    }
+
+    /// The stationary point of the distance that Newton's method finds from `hint` on its patch: near by, but not
+    /// necessarily the nearest of all.
+    #[must_use]
+    pub fn nearby(&self, x: Point3, hint: &Foot) -> Foot {
+        let start = Area::WHOLE.clamp(hint.uv);
+        descend(&self.net.patches()[hint.patch], x, start, &Area::WHOLE).foot(hint.patch)
+    }
+
+    /// A leaf near `x`.
+    fn guess(&self, x: Point3) -> (usize, [f64; 2]) {
+        let mut node = &self.nodes[0];
+        loop {
+            match node.kind {
+                Kind::Leaf(leaf) => {
+                    let leaf = &self.leaves[leaf as usize];
+                    return (leaf.patch, leaf.area.middle());
+                }
+                Kind::Branch(first, count) => {
+                    let children = &self.nodes[first as usize..(first + count) as usize];
+                    let near = |n: &&Node| middle_distance(n, x);
+                    match children.iter().min_by(|a, b| near(a).total_cmp(&near(b))) {
+                        Some(child) => node = child,
+                        None => return (0, [0.5, 0.5]),
+                    }
+                }
+            }
+        }
+    }
+
+    /// Walks down the boxes (low corner, high corner, whether it is a leaf); stops at those for which `enter` is false.
+    pub fn visit(&self, enter: &mut dyn FnMut([f64; 3], [f64; 3], bool) -> bool) {
+        let mut stack = vec![0u32];
+        while let Some(next) = stack.pop() {
+            let node = &self.nodes[next as usize];
+            let leaf = matches!(node.kind, Kind::Leaf(_));
+            if let (true, Kind::Branch(first, count)) = (enter(node.low, node.high, leaf), node.kind) {
+                stack.extend(first..first + count);
+            }
+        }
+    }
+}
+
+thread_local! {
+    /// The branches that a question has yet to look at; kept, because questions are asked by the million.
+    static STACK: RefCell<Vec<(f64, u32)>> = const { RefCell::new(Vec::new()) };
+}
+
+const EMPTY: Node = Node { low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3], kind: Kind::Branch(0, 0) };
+
+#[allow(clippy::cast_possible_truncation)]
+fn index(n: usize) -> u32 {
+    // A net has far fewer than 2^32 leaves: its poles come from a program text.
+    n as u32
+}
+
+fn hull(piece: &Patch) -> [Interval; 3] {
+    if !piece.is_rational() {
+        let [x, y, z, _] = hulls(piece);
+        return [x, y, z];
+    }
+    let [m, n] = piece.degree();
+    let first = piece.pole(0, 0);
+    let mut hull = [first.x, first.y, first.z].map(Interval::point);
+    for k in 0..(m + 1) * (n + 1) {
+        let p = piece.pole(k / (n + 1), k % (n + 1));
+        hull = core::array::from_fn(|i| hull[i].union(Interval::point(p[i])));
+    }
+    hull.map(|i| i.slackened(64.0))
+}
+
+/// Whether the normal certainly has a component along z.
+fn rises(derivatives: &[[Interval; 3]; 5]) -> bool {
+    let [ru, rv, ..] = derivatives;
+    let w = ru[0] * rv[1] - ru[1] * rv[0];
+    w.lo > 0.0 || w.hi < 0.0
+}
+
+/// Where a tool centre up to `reach` above a piece of surface of this `size` lies, seen from any of its points.
+fn cone(derivatives: &[[Interval; 3]; 5], reach: f64, size: f64) -> [Interval; 3] {
+    let [ru, rv, ..] = derivatives;
+    let cross = |a: usize, b: usize| ru[a] * rv[b] - ru[b] * rv[a];
+    let w = [cross(1, 2), cross(2, 0), cross(0, 1)];
+    let norm = (w[0].square() + w[1].square() + w[2].square()).sqrt();
+    let inverse = norm.recip();
+    let around = Interval { lo: -size, hi: size };
+    w.map(|c| {
+        let unit = c * inverse;
+        let limited = Interval { lo: unit.lo.max(-1.0), hi: unit.hi.min(1.0) };
+        let most = limited.magnitude().min(1.0) * reach;
+        // Normals of either sense: the patch may run either way.
+        let both = if limited.lo > 0.0 || limited.hi < 0.0 {
+            limited * Interval { lo: 0.0, hi: reach }
+        } else {
+            Interval { lo: -most, hi: most }
+        };
+        both + around
+    })
+}
+
+/// Whether G - offset·D is positive definite for all offsets and derivatives in these boxes.
+fn convex(derivatives: &[[Interval; 3]; 5], offset: &[Interval; 3]) -> bool {
+    let [ru, rv, ruu, ruv, rvv] = derivatives;
+    let dot = |a: &[Interval; 3], b: &[Interval; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    let squares = |a: &[Interval; 3]| a[0].square() + a[1].square() + a[2].square();
+    let h11 = squares(ru) - dot(offset, ruu);
+    let h22 = squares(rv) - dot(offset, rvv);
+    let h12 = dot(ru, rv) - dot(offset, ruv);
+    let most = h12.magnitude();
+    h11.lo > 0.0 && h22.lo > 0.0 && h11.lo * h22.lo > most * most
+}
+
+fn middle_distance(node: &Node, x: Point3) -> f64 {
+    let at = |i: usize| 0.5 * (node.low[i] + node.high[i]) - x[i];
+    at(0) * at(0) + at(1) * at(1) + at(2) * at(2)
+}
+
+fn box_distance(node: &Node, x: Point3) -> f64 {
+    let beyond = |i: usize| (node.low[i] - x[i]).max(x[i] - node.high[i]).max(0.0);
+    let (dx, dy, dz) = (beyond(0), beyond(1), beyond(2));
+    (dx * dx + dy * dy + dz * dz).sqrt()
+}
+
+/// A point of a patch and its square distance.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    uv: [f64; 2],
+    jet: SurfaceJet,
+    square: f64,
+}
+
+impl Place {
+    fn new(patch: &Patch, x: Point3, uv: [f64; 2]) -> Place {
+        let jet = patch.jet(uv[0], uv[1]);
+        Place { uv, square: (x - jet.p).norm_squared(), jet }
+    }
+    fn foot(&self, patch: usize) -> Foot {
+        let distance = self.square.sqrt();
+        Foot { patch, uv: self.uv, point: self.jet.p, distance, certain: distance }
+    }
+    /// Gradient of F.
+    fn gradient(&self, x: Point3) -> [f64; 2] {
+        let offset = x - self.jet.p;
+        [-offset.dot(&self.jet.u), -offset.dot(&self.jet.v)]
+    }
+    /// Newton's step in the free parameters, or Gauss and Newton's where F is not convex.
+    fn step(&self, x: Point3, g: [f64; 2], free: [bool; 2]) -> [f64; 2] {
+        let (offset, jet) = (x - self.jet.p, &self.jet);
+        let [g11, g12, g22] = jet.first();
+        let curved = [g11 - offset.dot(&jet.uu), g12 - offset.dot(&jet.uv), g22 - offset.dot(&jet.vv)];
+        let positive = |h: &[f64; 3]| match free {
+            [true, true] => h[0] > 0.0 && h[0] * h[2] > h[1] * h[1] * (1.0 + 1e-9),
+            [true, false] => h[0] > 0.0,
+            _ => h[2] > 0.0,
+        };
+        let h = if positive(&curved) { curved } else { [g11, g12, g22] };
+        match free {
+            [true, true] => {
+                let det = h[0] * h[2] - h[1] * h[1];
+                if !(det > 0.0) {
+                    return [0.0, 0.0];
+                }
+                [(h[1] * g[1] - h[2] * g[0]) / det, (h[1] * g[0] - h[0] * g[1]) / det]
+            }
+            [true, false] if h[0] > 0.0 => [-g[0] / h[0], 0.0],
+            [false, true] if h[2] > 0.0 => [0.0, -g[1] / h[2]],
+            _ => [0.0, 0.0],
+        }
+    }
+}
+
+/// Which parameters may move: not those at an edge that the gradient pushes against.
+fn free(uv: [f64; 2], g: [f64; 2], area: &Area) -> [bool; 2] {
+    let one = |t: f64, g: f64, (a, b): (f64, f64)| !(t <= a && g >= 0.0 || t >= b && g <= 0.0);
+    [one(uv[0], g[0], area.u), one(uv[1], g[1], area.v)]
+}
+
+/// Minimises the distance over a rectangle from `start`; exact where F is convex.
+fn descend(patch: &Patch, x: Point3, start: [f64; 2], area: &Area) -> Place {
+    const STEPS: u32 = 40;
+    let mut at = Place::new(patch, x, area.clamp(start));
+    for _ in 0..STEPS {
+        let g = at.gradient(x);
+        let free = free(at.uv, g, area);
+        if free == [false, false] {
+            break;
+        }
+        let [du, dv] = at.step(x, g, free);
+        let Some((next, moved)) = improve(patch, x, &at, [du, dv], area) else { break };
+        at = next;
+        if moved < SETTLED {
+            break;
+        }
+    }
+    at
+}
+
+/// The step, halved until it makes the distance smaller; `None` where it cannot. With the way it moved, mm.
+fn improve(patch: &Patch, x: Point3, at: &Place, step: [f64; 2], area: &Area) -> Option<(Place, f64)> {
+    let mut part = 1.0;
+    for _ in 0..12 {
+        let uv = area.clamp([at.uv[0] + part * step[0], at.uv[1] + part * step[1]]);
+        let moved = (at.jet.u * (uv[0] - at.uv[0]) + at.jet.v * (uv[1] - at.uv[1])).norm();
+        if !(moved > 1e-13) {
+            return None;
+        }
+        let next = Place::new(patch, x, uv);
+        if next.square <= at.square || moved < SETTLED {
+            return Some((if next.square <= at.square { next } else { *at }, moved));
+        }
+        part *= 0.5;
+    }
+    None
+}
+
+/// One question.
+struct Quest<'a> {
+    tree: &'a SurfaceTree,
+    x: Point3,
+    best: Foot,
+    /// What is farther is of no interest.
+    limit: f64,
+    /// Smallest bound of what was given up.
+    open: f64,
+}
+
+impl Quest<'_> {
+    fn finish(mut self) -> Foot {
+        self.best.certain = self.limit.min(self.open);
+        self.best
+    }
+
+    fn run(&mut self, stack: &mut Vec<(f64, u32)>) {
+        stack.clear();
+        stack.push((0.0, 0));
+        while let Some((bound, next)) = stack.pop() {
+            if bound >= self.limit {
+                continue;
+            }
+            let node = &self.tree.nodes[next as usize];
+            match node.kind {
+                Kind::Leaf(leaf) => self.leaf(&self.tree.leaves[leaf as usize]),
+                Kind::Branch(first, count) => {
+                    for child in first..first + count {
+                        let bound = box_distance(&self.tree.nodes[child as usize], self.x);
+                        if bound < self.limit {
+                            stack.push((bound, child));
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    fn leaf(&mut self, leaf: &Leaf) {
+        if leaf.slab.distance(self.x) >= self.limit - SAME {
+            return;
+        }
+        let own = self.best.patch == leaf.patch;
+        let (middle, half) = self.offset(&leaf.hull);
+        let convex = leaf.bend.convex(middle, half);
+        if own && convex && leaf.area.contains(self.best.uv) {
+            return;
+        }
+        let patch = &self.tree.net.patches()[leaf.patch];
+        let near =
+            Place::new(patch, self.x, leaf.area.clamp(if own { self.best.uv } else { leaf.area.middle() }));
+        if !convex {
+            let mut budget = MOST_PIECES;
+            return self.pieces(leaf, &mut budget);
+        }
+        if self.above(&near, &leaf.area) {
+            return;
+        }
+        self.take(descend(patch, self.x, near.uv, &leaf.area), leaf.patch);
+    }
+
+    /// Whether a convex F is above the best over the whole rectangle, by its tangent plane at `at`.
+    fn above(&self, at: &Place, area: &Area) -> bool {
+        let g = at.gradient(self.x);
+        let least = |g: f64, t: f64, (a, b): (f64, f64)| (g * (a - t)).min(g * (b - t));
+        let low = 0.5 * at.square + least(g[0], at.uv[0], area.u) + least(g[1], at.uv[1], area.v);
+        let best = (self.limit - SAME).max(0.0);
+        low >= 0.5 * best * best
+    }
+
+    /// x - r for all points r in a box: middle and half width.
+    fn offset(&self, hull: &[Interval; 3]) -> (Vec3, Vec3) {
+        let middle = Vec3::from(hull.map(|i| 0.5 * (i.lo + i.hi)));
+        (self.x.coords - middle, Vec3::from(hull.map(|i| 0.5 * (i.hi - i.lo))) * (1.0 + 1e-12))
+    }
+
+    fn take(&mut self, place: Place, patch: usize) {
+        let foot = place.foot(patch);
+        if foot.distance < self.best.distance {
+            self.best = foot;
+            self.limit = self.limit.min(foot.distance);
+        }
+    }
+
+    /// A leaf over which F is not convex: cut up until each piece is, or lies beyond the best.
+    fn pieces(&mut self, leaf: &Leaf, budget: &mut u32) {
+        let patch = &self.tree.net.patches()[leaf.patch];
+        let mut stack = leaf.area.quarters().to_vec();
+        while let Some(area) = stack.pop() {
+            let piece = patch.restrict(area.u, area.v);
+            let slab = Slab::new(&piece);
+            let bound = slab.distance(self.x);
+            if bound >= self.limit - SAME {
+                continue;
+            }
+            let bend = Bend::new(&self.tree.derivatives[leaf.patch].boxes(area.u, area.v));
+            let (middle, half) = self.offset(&hull(&piece));
+            if bend.convex(middle, half) {
+                self.take(descend(patch, self.x, area.middle(), &area), leaf.patch);
+                continue;
+            }
+            self.take(descend(patch, self.x, area.middle(), &area), leaf.patch);
+            // Pieces this flat cannot hold a point nearer by more than what counts.
+            const FLAT: f64 = 1e-9;
+            if *budget == 0 || bound >= self.limit - FLAT {
+                self.open = self.open.min(bound);
+                continue;
+            }
+            *budget -= 1;
+            stack.extend(area.quarters());
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

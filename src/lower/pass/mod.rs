@@ -1,0 +1,284 @@
+//! Passes over surfaces as straight lines in space, with vertices on the control's grid.
+//!
+//! The deviation of a chord from the surface, as the ball sees it, depends on the curvature of the track along the
+//! surface's normal. So the track is *developed* ([`chart`]): laid out as a plane curve with that curvature, about which
+//! the band is a ribbon of constant width. The fewest links of the ribbon give the vertices; these are taken back
+//! to space, set on the grid, and every link is checked by its true distance from the surface. What fails is tried
+//! again in a narrower ribbon, and links that still fail are cut in two.
+
+mod chart;
+mod vertex;
+
+use std::sync::Arc;
+
+use rayon::prelude::*;
+
+use super::fit::ribbon;
+use super::place::at_origin;
+use crate::cl::{Cl, Pass, RecordKind};
+use crate::diag::{Sink, codes};
+use crate::geom::surface::swept::{Question, extremes};
+use crate::geom::surface::{Contact, Foot, Guide, Track};
+use crate::geom::{Point2, Point3};
+use crate::target::Capabilities;
+use chart::Chart;
+use vertex::{Lattice, Vertex};
+
+/// A fitted pass: its vertices in steps of the grid.
+pub(super) type Chain = Vec<[i64; 3]>;
+
+/// Parts of the band, on either side, that are left to the rounding of vertices: tried in this order, steps of the grid.
+const MARGINS: [f64; 6] = [0.02, 0.15, 0.3, 0.5, 0.9, 1.5];
+/// Slack of the check, mm; far below what verification allows.
+const SLACK: f64 = 4e-7;
+/// Cuts of one failing link at most.
+const DEEPEST: u32 = 12;
+
+/// Why a pass cannot be fitted, and where the tip is.
+#[derive(Debug, Clone, Copy)]
+struct Trouble {
+    at: Point3,
+    lost: bool,
+}
+
+/// Fits all passes of a program, in parallel; one entry a record, `None` where it is no pass.
+pub(super) fn fit_all(cl: &Cl, capabilities: &Capabilities, sink: &mut Sink) -> Vec<Option<Arc<Chain>>> {
+    let fitted: Vec<Option<Result<Chain, Trouble>>> = cl
+        .records
+        .par_iter()
+        .map(|record| match &record.kind {
+            RecordKind::Pass(pass) => Some(fit(pass, capabilities)),
+            _ => None,
+        })
+        .collect();
+    let mut told = Vec::new();
+    let mut out = Vec::with_capacity(fitted.len());
+    for (record, result) in cl.records.iter().zip(fitted) {
+        out.push(match result {
+            Some(Ok(chain)) => Some(Arc::new(chain)),
+            Some(Err(trouble)) => {
+                let span = cl.origins[record.origin].span;
+                if let (RecordKind::Pass(pass), false) = (&record.kind, told.contains(&span)) {
+                    told.push(span);
+                    sink.push(cannot_fit(cl, record.origin, pass, trouble, capabilities));
+                }
+                None
+            }
+            None => None,
+        });
+    }
+    out
+}
+
+fn cannot_fit(
+    cl: &Cl,
+    origin: crate::arena::Handle<crate::ir::Origin>,
+    pass: &Pass,
+    trouble: Trouble,
+    capabilities: &Capabilities,
+) -> crate::diag::Diagnostic {
+    let p = trouble.at;
+    let place = format!("({:.4}, {:.4}, {:.4}) mm", p.x, p.y, p.z);
+    let message = if trouble.lost {
+        format!("the pass loses the surface near {place}: the ball touches nothing there")
+    } else {
+        format!("no lines on the grid of the control keep a pass within its tolerance near {place}")
+    };
+    let crate::ir::Band { into, out } = pass.band;
+    at_origin(&codes::lowering::CANNOT_FIT, &cl.origins, origin, message)
+        .note(format!(
+            "the band is INTOL {into} mm, OUTTOL {out} mm; {} takes {} decimals in {}",
+            capabilities.name,
+            capabilities.grid.linear_decimals,
+            capabilities.grid.unit.symbol()
+        ))
+        .help("give a larger INTOL or OUTTOL, or use a post with more decimals")
+}
+
+/// What a pass is fitted with.
+struct Task<'a> {
+    track: &'a Track,
+    lattice: Lattice,
+    /// Radius of the ball with what it leaves, mm.
+    ball: f64,
+    /// Range of the distance from the exact track along the normal, mm.
+    low: f64,
+    high: f64,
+    room: &'a [f64],
+}
+
+fn fit(pass: &Pass, capabilities: &Capabilities) -> Result<Chain, Trouble> {
+    let step = capabilities.grid.linear_step();
+    let share = capabilities.path_tolerance.map_or(0.0, |p| p.share);
+    let reserved = share * pass.band.into.min(pass.band.out);
+    let lattice = Lattice::new(step, pass.tip, &pass.track.guide);
+    let track = lattice.snapped(&pass.track);
+    let task = Task {
+        track: &track,
+        lattice,
+        ball: pass.track.radius,
+        low: reserved - pass.band.into,
+        high: pass.band.out - reserved,
+        room: &pass.room,
+    };
+    let lost =
+        |t: f64| Trouble { at: track.at(t, None).map_or_else(Point3::origin, |c| c.centre), lost: true };
+    let (Some(first), Some(last)) = (track.at(0.0, None), track.at(1.0, None)) else { return Err(lost(0.5)) };
+    let ends = [first, last].map(|c| task.vertex(&c, 0.5 * (task.low + task.high)));
+    let [Some(head), Some(tail)] = ends else { return Err(Trouble { at: first.centre, lost: false }) };
+    let chart = Chart::new(&track, 0.02 * (task.high - task.low), (first, last)).ok_or_else(|| lost(0.5))?;
+    task.best(&chart, head, tail)
+}
+
+impl Task<'_> {
+    /// The fewest blocks over all margins.
+    fn best(&self, chart: &Chart, head: Vertex, tail: Vertex) -> Result<Chain, Trouble> {
+        let mut best: Option<Vec<Vertex>> = None;
+        let mut trouble = Trouble { at: head.centre, lost: false };
+        for margin in MARGINS {
+            let margin = (margin * self.lattice.step).min(0.45 * (self.high - self.low));
+            let vertices = self.vertices(chart, margin, head, tail);
+            match self.repaired(chart, &vertices) {
+                Ok((chain, cuts)) => {
+                    if best.as_ref().is_none_or(|b| chain.len() < b.len()) {
+                        best = Some(chain);
+                    }
+                    if cuts == 0 {
+                        break;
+                    }
+                }
+                Err(at) => trouble = at,
+            }
+        }
+        best.map(|chain| chain.iter().map(|v| v.steps).collect()).ok_or(trouble)
+    }
+
+    /// The vertices of a path with the fewest links in the ribbon that `margin` leaves.
+    fn vertices(&self, chart: &Chart, margin: f64, head: Vertex, tail: Vertex) -> Vec<Vertex> {
+        let mut out = vec![head];
+        for piece in chart.pieces() {
+            let (low, high) = (self.low + margin, self.high - margin);
+            let (start, end) =
+                (out.last().copied().unwrap_or(head), (piece.1 == chart.len() - 1).then_some(tail));
+            let end = end.or_else(|| self.vertex(&chart.contact(piece.1), 0.5 * (low + high)));
+            let from = chart.place(piece.0, start.off.clamp(low, high));
+            let to = chart.place(piece.1, end.map_or(0.5 * (low + high), |v| v.off).clamp(low, high));
+            let ribbon = chart.ribbon(piece, low, high);
+            let knots = ribbon::fewest(&ribbon, from, to);
+            match knots {
+                Some(knots) => {
+                    for knot in knots {
+                        out.extend(self.knot(chart, piece.0, knot.at, knot.next));
+                    }
+                }
+                // Gates that cross: every station becomes a vertex, and repair has nothing to do.
+                None => out.extend(
+                    (piece.0 + 1..piece.1).filter_map(|i| self.vertex(&chart.contact(i), 0.5 * (low + high))),
+                ),
+            }
+            out.extend(end);
+        }
+        out.dedup_by(|b, a| a.steps == b.steps);
+        out
+    }
+
+    /// A knot of the chart in space, on the grid.
+    fn knot(&self, chart: &Chart, first: usize, at: Point2, next: usize) -> Option<Vertex> {
+        let (t, off, hint) = chart.locate(first + next, at);
+        let contact = self.track.at(t, Some(&hint))?;
+        let mut vertex = self.vertex(&contact, off)?;
+        vertex.t = t;
+        Some(vertex)
+    }
+
+    fn vertex(&self, contact: &Contact, off: f64) -> Option<Vertex> {
+        self.lattice.vertex(contact, off.clamp(self.low, self.high), (self.low, self.high))
+    }
+
+    /// The chain with failing links cut in two until they hold; with the number of cuts.
+    fn repaired(&self, chart: &Chart, vertices: &[Vertex]) -> Result<(Vec<Vertex>, u32), Trouble> {
+        let mut out: Vec<Vertex> =
+            vec![*vertices.first().ok_or(Trouble { at: Point3::origin(), lost: true })?];
+        let mut cuts = 0;
+        let mut places: Vec<f64> = chart.parameters(vertices);
+        places.reverse();
+        let mut rest: Vec<(Vertex, u32)> = vertices.iter().skip(1).rev().map(|v| (*v, 0)).collect();
+        let mut from_t = places.pop().unwrap_or(0.0);
+        let mut rest_t = places;
+        while let (Some(&(to, depth)), Some(&to_t)) = (rest.last(), rest_t.last()) {
+            let from = out[out.len() - 1];
+            if from.steps == to.steps || self.aside(&from, &to, (from_t, to_t)) && self.holds(&from, &to) {
+                out.push(to);
+                rest.pop();
+                rest_t.pop();
+                from_t = to_t;
+                continue;
+            }
+            let t = 0.5 * (from_t + to_t);
+            let middle = self.track.at(t, None).and_then(|c| self.vertex(&c, 0.5 * (self.low + self.high)));
+            let Some(middle) = middle.filter(|_| depth < DEEPEST) else {
+                return Err(Trouble { at: from.centre, lost: false });
+            };
+            cuts += 1;
+            if let Some(last) = rest.last_mut() {
+                last.1 = depth + 1;
+            }
+            rest.push((middle, depth + 1));
+            rest_t.push(t);
+        }
+        out.dedup_by(|b, a| a.steps == b.steps);
+        Ok((out, cuts))
+    }
+
+    /// Whether the straight way between two vertices stays beside the track no farther than there is room.
+    fn aside(&self, from: &Vertex, to: &Vertex, (a, b): (f64, f64)) -> bool {
+        const PLACES: u32 = 6;
+        if self.room.is_empty() {
+            return true;
+        }
+        let (p, q) = (self.lattice.centre(from.steps), self.lattice.centre(to.steps));
+        let Some(along) = (q - p).try_normalize(0.0) else { return true };
+        let mut hint = None;
+        (1..PLACES).all(|k| {
+            let t = a + (b - a) * f64::from(k) / f64::from(PLACES);
+            hint = self.track.at(t, hint.as_ref());
+            let Some(contact) = &hint else { return false };
+            let off = contact.centre - p;
+            let side = along.cross(&contact.normal);
+            off.dot(&side).abs() <= self.room_at(t)
+        })
+    }
+
+    /// Room at a parameter, and never less than the grid takes.
+    fn room_at(&self, t: f64) -> f64 {
+        let last = self.room.len() - 1;
+        let x = t.clamp(0.0, 1.0) * crate::math::count(last);
+        let i = (x.floor() as usize).min(last);
+        let (a, b) = (self.room[i], self.room[(i + 1).min(last)]);
+        a.min(b).max(self.lattice.step)
+    }
+
+    /// Whether the straight way between two vertices stays in the band.
+    fn holds(&self, from: &Vertex, to: &Vertex) -> bool {
+        let (least, most) = (self.ball + self.low, self.ball + self.high);
+        let question = Question { enough: least, little: most, accuracy: SLACK };
+        let hint: Foot = from.foot;
+        let found = extremes(
+            &self.track.tree,
+            self.lattice.centre(from.steps),
+            self.lattice.centre(to.steps),
+            &question,
+            Some(&hint),
+        );
+        found.least.distance >= least - SLACK && found.most.distance <= most + SLACK
+    }
+}
+
+/// Whether a guide is a straight line along x (0) or y (1).
+fn axis_of(guide: &Guide) -> Option<usize> {
+    match guide {
+        Guide::Line { from, to } if from.y == to.y => Some(0),
+        Guide::Line { from, to } if from.x == to.x => Some(1),
+        _ => None,
+    }
+}

@@ -1,0 +1,89 @@
+//! Vertices on the control's grid.
+
+use super::axis_of;
+use crate::geom::surface::{Contact, Foot, Guide, Track};
+use crate::geom::{Point2, Point3, Vec3};
+
+/// The grid, as the tip of a ball sees it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Lattice {
+    /// One step, mm.
+    pub step: f64,
+    /// Height of the centre above the tip, mm.
+    tip: f64,
+    /// Axis along which a plane pass runs: vertices keep its other coordinate.
+    axis: Option<usize>,
+}
+
+/// A vertex of a chain.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Vertex {
+    /// Tip, in steps.
+    pub steps: [i64; 3],
+    /// Centre, mm.
+    pub centre: Point3,
+    /// How far it is from the exact track along the normal, mm.
+    pub off: f64,
+    /// Foot of the exact track there.
+    pub foot: Foot,
+    /// Parameter of the track, where it is known.
+    pub t: f64,
+}
+
+impl Lattice {
+    pub(super) fn new(step: f64, tip: f64, guide: &Guide) -> Lattice {
+        Lattice { step, tip, axis: axis_of(guide) }
+    }
+
+    /// A plane pass with its plane on the grid.
+    pub(super) fn snapped(&self, track: &Track) -> Track {
+        let Guide::Line { from, to } = track.guide else { return track.clone() };
+        let snap = |x: f64| (x / self.step).round() * self.step;
+        let [from, to] = [from, to].map(|p| Point2::new(snap(p.x), snap(p.y)));
+        Track { guide: Guide::Line { from, to }, ..track.clone() }
+    }
+
+    /// The centre of a ball whose tip is at a vertex, mm.
+    #[allow(clippy::cast_precision_loss)]
+    pub(super) fn centre(&self, steps: [i64; 3]) -> Point3 {
+        let [x, y, z] = steps.map(|s| s as f64 * self.step);
+        Point3::new(x, y, z + self.tip)
+    }
+
+    /// The vertex near `contact` whose distance along the normal comes nearest to `off` and lies in `range`.
+    pub(super) fn vertex(&self, contact: &Contact, off: f64, range: (f64, f64)) -> Option<Vertex> {
+        let n = self.sideways(contact.normal);
+        let ideal = contact.centre + n * (off / n.dot(&contact.normal).max(0.05));
+        let tip = Point3::new(ideal.x, ideal.y, ideal.z - self.tip);
+        let base = [tip.x, tip.y, tip.z].map(|c| (c / self.step).round());
+        if base.iter().any(|b| !(b.abs() < 9e15)) {
+            return None;
+        }
+        // |base| is far below 2^63.
+        let base = base.map(|b| b as i64);
+        let mut best: Option<(f64, Vertex)> = None;
+        for k in 0..27i64 {
+            let shift = [k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1];
+            if self.axis.is_some_and(|axis| shift[1 - axis] != 0) {
+                continue;
+            }
+            let steps: [i64; 3] = core::array::from_fn(|i| base[i] + shift[i]);
+            let centre = self.centre(steps);
+            let found = (centre - contact.centre).dot(&contact.normal);
+            // A vertex far to the side is no better for a tiny gain in height.
+            let cost = (found - off).abs() + 0.02 * (centre - ideal).norm();
+            if found >= range.0 && found <= range.1 && best.as_ref().is_none_or(|b| cost < b.0) {
+                best = Some((cost, Vertex { steps, centre, off: found, foot: contact.foot, t: f64::NAN }));
+            }
+        }
+        best.map(|b| b.1)
+    }
+
+    /// The direction in which vertices move off the track: in its plane for a plane pass, else along the normal.
+    fn sideways(&self, normal: Vec3) -> Vec3 {
+        let Some(axis) = self.axis else { return normal };
+        let mut flat = normal;
+        flat[1 - axis] = 0.0;
+        flat.try_normalize(1e-9).unwrap_or(normal)
+    }
+}

@@ -1,0 +1,249 @@
+//! Finishing of surfaces: passes of a ball-end cutter over a net.
+//!
+//! [`family`] says what the passes of an operation are, [`march`] how close they lie, [`entry`] how the cutter comes onto
+//! the surface. Passes stay exact tracks: `lower` fits them.
+
+mod entry;
+mod family;
+mod march;
+mod share;
+
+use std::sync::Arc;
+
+use super::Planner;
+use crate::arena::Handle;
+use crate::cl::{Finish, Guard, Operation, Pass, RecordKind};
+use crate::diag::Diagnostic;
+use crate::diag::codes::planning as codes;
+use crate::geom::Point3;
+use crate::geom::surface::curvature::{Concavity, most_concave};
+use crate::geom::surface::{Contact, SurfaceTree, Track};
+use crate::ir::{Origin, Spacing, Surface};
+use family::{Family, Leg};
+
+/// Accuracy of the smallest concave radius, mm.
+const RADIUS_ACCURACY: f64 = 1e-6;
+/// The approach is at rapid down to so far above the surface and the blank, mm, clearance permitting.
+const ABOVE: f64 = 2.0;
+
+impl Planner<'_> {
+    pub(super) fn surface(&mut self, surface: &Surface, origin: Handle<Origin>) {
+        let name = self.operation_name("SURFAC", surface.name.as_deref());
+        let ready = self.ready(&name, Some(surface.tool), origin);
+        let entity = &self.program.nets[surface.net];
+        let radius = self.program.tools[surface.tool].diameter / 2.0;
+        let reach = radius + surface.leave + surface.band.out;
+        let tree = Arc::new(SurfaceTree::new(entity.net.clone(), reach));
+        let reachable = self.reachable(surface, &tree, origin);
+        let clear = self.clears(surface, &tree, origin);
+        let fits = reachable && self.fits(surface, radius, origin);
+        if !(fits && clear && ready.is_some()) {
+            return;
+        }
+        let family = Family::new(surface, Arc::clone(&tree), radius);
+        let legs = match family.legs(surface) {
+            Ok(legs) => legs,
+            Err(why) => return self.no_passes(&why, origin),
+        };
+        let finish = Finish { tree, radius, leave: surface.leave, cusp: cusp(surface.spacing) };
+        self.passes(surface, &name, finish, &legs, origin);
+    }
+
+    /// The cutter against the smallest concave radius.
+    fn fits(&mut self, surface: &Surface, radius: f64, origin: Handle<Origin>) -> bool {
+        let concavity = most_concave(&self.program.nets[surface.net].net, RADIUS_ACCURACY);
+        let ball = radius + surface.leave;
+        if concavity.curvature * ball <= 1.0 {
+            return true;
+        }
+        let code = if surface.avoid { &codes::SURFACE_LIFTED } else { &codes::SURFACE_TOO_HOLLOW };
+        let diagnostic = self.too_hollow(surface, &concavity, ball, code, origin);
+        self.report(diagnostic, origin);
+        surface.avoid
+    }
+
+    fn too_hollow(
+        &self,
+        surface: &Surface,
+        concavity: &Concavity,
+        ball: f64,
+        code: &'static crate::diag::Code,
+        origin: Handle<Origin>,
+    ) -> Diagnostic {
+        let (p, net) = (concavity.point, &self.program.nets[surface.net]);
+        let left = if surface.leave > 0.0 { " (with what it leaves)" } else { "" };
+        let message = format!(
+            "a ball of radius {}{left} does not fit {}: its smallest concave radius is {}, at ({}, {}, {}), u {:.6}, v {:.6}",
+            self.show(ball),
+            net.name,
+            self.show(concavity.proven_radius()),
+            self.show(p.x),
+            self.show(p.y),
+            self.show(p.z),
+            concavity.at[0],
+            concavity.at[1]
+        );
+        let largest = 2.0 * (concavity.proven_radius() - surface.leave);
+        let help = if largest > 0.0 {
+            format!("the largest ball-end cutter that fits has a diameter of {}", self.show(largest))
+        } else {
+            format!("no ball-end cutter fits with {} left on the surface", self.show(surface.leave))
+        };
+        let declared = self.span(self.program.tools[surface.tool].origin);
+        let diagnostic = Diagnostic::new(code, self.span(origin), message)
+            .label(declared, "the cutter")
+            .label(self.span(net.origin), "the surface")
+            .help(help);
+        if surface.avoid {
+            return diagnostic.note("the path is lifted there: nothing is gouged, and material stays");
+        }
+        diagnostic
+    }
+
+    /// Every place must have a normal towards the tool.
+    fn reachable(&mut self, surface: &Surface, tree: &SurfaceTree, origin: Handle<Origin>) -> bool {
+        if tree.is_upright() {
+            return true;
+        }
+        let Some((p, [u, v])) = overhang(tree) else { return true };
+        let net = &self.program.nets[surface.net];
+        let message = format!(
+            "{} folds over, stands upright or has no normal at ({}, {}, {}), u {u:.4}, v {v:.4}: a cutter from above cannot reach it",
+            net.name,
+            self.show(p.x),
+            self.show(p.y),
+            self.show(p.z)
+        );
+        let diagnostic = Diagnostic::new(&codes::OVERHANG, self.span(origin), message)
+            .label(self.span(net.origin), "the surface")
+            .help("poles that coincide, change their order or lie on top of each other do that");
+        self.report(diagnostic, origin);
+        false
+    }
+
+    fn clears(&mut self, surface: &Surface, tree: &SurfaceTree, origin: Handle<Origin>) -> bool {
+        let top = tree.bounds().1.z + surface.leave;
+        if surface.clearance > top.max(surface.stock_top.unwrap_or(top)) {
+            return true;
+        }
+        let highest = top.max(surface.stock_top.unwrap_or(top));
+        let message = format!(
+            "the clearance plane is at Z {}, and the surface or its blank reaches up to Z {}",
+            self.show(surface.clearance),
+            self.show(highest)
+        );
+        let help = format!(
+            "write `CLEARP/ {}`",
+            crate::cl::print::number((highest + 5.0).ceil() / self.program.units.in_mm())
+        );
+        let diagnostic = Diagnostic::new(&codes::CLEARANCE_TOO_LOW, self.span(origin), message).help(help);
+        self.report(diagnostic, origin);
+        false
+    }
+
+    fn no_passes(&mut self, why: &str, origin: Handle<Origin>) {
+        let diagnostic = Diagnostic::new(&codes::NO_PASSES, self.span(origin), why.to_owned())
+            .help("give a larger height of cusps or step, or another direction of passes");
+        self.report(diagnostic, origin);
+    }
+
+    fn passes(
+        &mut self,
+        surface: &Surface,
+        name: &str,
+        finish: Finish,
+        legs: &[Leg],
+        origin: Handle<Origin>,
+    ) {
+        let top = finish.tree.bounds().1.z + surface.leave;
+        let top = top.max(surface.stock_top.unwrap_or(top));
+        let heights = Heights { clearance: surface.clearance, approach: surface.clearance.min(top + ABOVE) };
+        let tip = finish.radius;
+        let bottom = finish.tree.bounds().0.z;
+        let guard = Guard { surface: Some(finish), top, bottom, ..Guard::default() };
+        let operation = Operation {
+            name: name.to_owned(),
+            kind: "SURFAC",
+            origin,
+            band: surface.band,
+            guard,
+            effort: None,
+        };
+        let index = self.begin(operation, origin);
+        for run in legs.split_inclusive(|leg| leg.last) {
+            self.run(surface, run, tip, heights, origin);
+        }
+        self.emit(RecordKind::EndOperation(index), origin);
+    }
+
+    /// One stay on the surface: onto it, along it, off it.
+    fn run(&mut self, surface: &Surface, run: &[Leg], tip: f64, heights: Heights, origin: Handle<Origin>) {
+        let (Some(first), Some(last)) = (run.first(), run.last()) else { return };
+        let way_in = entry::onto(&first.track);
+        let tips = |points: &[Point3]| -> Vec<Point3> {
+            points.iter().map(|p| Point3::new(p.x, p.y, p.z - tip)).collect()
+        };
+        let way_in = tips(&way_in);
+        if let Some(start) = way_in.first() {
+            self.rapid(Point3::new(start.x, start.y, heights.clearance), origin);
+            self.rapid(Point3::new(start.x, start.y, heights.approach.max(start.z)), origin);
+        }
+        for p in &way_in {
+            self.linear(*p, origin);
+        }
+        for leg in run {
+            let pass = Pass { track: leg.track.clone(), tip, band: surface.band, room: leg.room.clone() };
+            self.emit(RecordKind::Pass(Box::new(pass)), origin);
+        }
+        let mut way_out = tips(&entry::onto(&last.track.reversed()));
+        way_out.reverse();
+        for p in &way_out {
+            self.linear(*p, origin);
+        }
+        if let Some(end) = way_out.last() {
+            self.rapid(Point3::new(end.x, end.y, heights.clearance), origin);
+        }
+    }
+}
+
+/// Tip heights of the travel to and from the surface, mm.
+#[derive(Debug, Clone, Copy)]
+struct Heights {
+    clearance: f64,
+    approach: f64,
+}
+
+fn cusp(spacing: Spacing) -> Option<f64> {
+    match spacing {
+        Spacing::Cusp(h) => Some(h),
+        Spacing::Step(_) => None,
+    }
+}
+
+/// A place where the surface has no normal that points up, found among many.
+fn overhang(tree: &SurfaceTree) -> Option<(Point3, [f64; 2])> {
+    const PLACES: u32 = 48;
+    const LEAST: f64 = 1e-3;
+    let net = tree.net();
+    for (index, patch) in net.patches().iter().enumerate() {
+        let columns = net.size()[1];
+        let corner = [crate::math::count(index / columns), crate::math::count(index % columns)];
+        let mut sense = 0.0;
+        for k in 0..=PLACES * (PLACES + 2) {
+            let [u, v] = [k / (PLACES + 1), k % (PLACES + 1)].map(|i| f64::from(i) / f64::from(PLACES));
+            let jet = patch.jet(u, v);
+            let w = jet.u.cross(&jet.v);
+            let upright = w.z.abs() > LEAST * w.norm() && w.z * sense >= 0.0;
+            if !upright {
+                return Some((jet.p, [corner[0] + u, corner[1] + v]));
+            }
+            sense = w.z.signum();
+        }
+    }
+    None
+}
+
+/// The contact where a track begins.
+fn start_of(track: &Track) -> Option<Contact> {
+    track.at(0.0, None)
+}

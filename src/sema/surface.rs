@@ -1,0 +1,300 @@
+//! `NET` and `SURFAC`.
+
+use crate::arena::Handle;
+use crate::diag::Diagnostic;
+use crate::diag::codes::{geometry, planning, semantics as codes};
+use crate::geom::Point3;
+use crate::geom::surface::curvature::most_concave;
+use crate::geom::surface::{Net, NetIssue};
+use crate::ir::{Along, CutterKind, NetEntity, Spacing, StepKind, StockShape, Surface, Tool};
+use crate::math::count;
+use crate::source::Span;
+use crate::units::{Dim, Quantity};
+
+use super::include::unreadable_file;
+use super::matched::{Matched, Typed};
+use super::value::{Entity, Value};
+use super::{Analyser, limits};
+
+/// Patches that meet at a smaller angle are smooth enough, degrees.
+const SMOOTH: f64 = 0.01;
+/// Accuracy of the smallest concave radius, mm.
+pub(super) const RADIUS_ACCURACY: f64 = 1e-9;
+
+/// The poles of a net as they were given.
+#[derive(Debug, Default)]
+struct Poles {
+    rows: usize,
+    columns: usize,
+    points: Vec<Point3>,
+    weights: Option<Vec<f64>>,
+}
+
+impl Analyser<'_> {
+    /// `N1 = NET/ …`.
+    pub(super) fn net(&mut self, m: &Matched, name: &str) -> Option<Value> {
+        let poles = if m.form == "file" { self.net_file(m)? } else { listed(m) };
+        let made = Net::new(poles.rows, poles.columns, &poles.points, poles.weights.as_deref());
+        let net = match made {
+            Ok(net) => net,
+            Err(issue) => {
+                let at = if m.form == "file" { m.span("file") } else { m.word };
+                self.report(unsound(&issue, at));
+                return None;
+            }
+        };
+        self.check_joints(&net, m.word);
+        let origin = self.origin(self.here);
+        let handle = self.program.nets.push(NetEntity { name: name.to_owned(), net, origin });
+        Some(Value::Entity(Entity::Net(handle)))
+    }
+
+    /// Warns of the worst joint that is not smooth.
+    fn check_joints(&mut self, net: &Net, at: Span) {
+        let joints = net.joints();
+        let sharp: Vec<_> = joints.iter().filter(|j| j.angle.deg() > SMOOTH).collect();
+        let Some(worst) = sharp.iter().max_by(|a, b| a.angle.rad().total_cmp(&b.angle.rad())) else { return };
+        let [row, column] = worst.patch;
+        let (next, p) = (if worst.axis == 0 { [row + 1, column] } else { [row, column + 1] }, worst.at);
+        let message = format!(
+            "patches {}, {} and {}, {} of this net meet at an angle of {:.4} deg at ({}, {}, {})",
+            row + 1,
+            column + 1,
+            next[0] + 1,
+            next[1] + 1,
+            worst.angle.deg(),
+            self.show_length(p.x),
+            self.show_length(p.y),
+            self.show_length(p.z)
+        );
+        let more =
+            format!("{} of {} joints have a crease of more than {SMOOTH} deg", sharp.len(), joints.len());
+        self.report(Diagnostic::new(&geometry::CREASE, at, message).note(more).help(
+            "put the poles on both sides of the joint and the joint's own pole on one line for a smooth surface",
+        ));
+    }
+
+    fn net_file(&mut self, m: &Matched) -> Option<Poles> {
+        let path = m.text("file")?.to_owned();
+        let at = m.span("file");
+        let from = self.sources.file(at.file).name.clone();
+        let text = match self.files.read(Some(&from), &path) {
+            Ok((name, text)) => {
+                self.sources.add(name, text.as_str());
+                text
+            }
+            Err(error) => {
+                let problem = unreadable_file(&path, &error, at);
+                self.report(problem);
+                return None;
+            }
+        };
+        match read_poles(&text, &|x| Quantity::bare(x).land(Dim::LENGTH, self.program.units).map(|q| q.value))
+        {
+            Ok(poles) => Some(poles),
+            Err((line, what)) => {
+                let message = format!("{path}, line {line}: {what}");
+                self.report(Diagnostic::new(&geometry::NET_SHAPE, at, message).help(
+                    "a heading `x,y,z` or `x,y,z,w`, then one pole a line; an empty line ends a row of poles",
+                ));
+                None
+            }
+        }
+    }
+
+    /// `N1.MINRADIUS` and the like.
+    pub(super) fn net_member(&self, net: Handle<NetEntity>, name: &str) -> Option<Value> {
+        let net = &self.program.nets[net].net;
+        match name {
+            "ROWS" => Some(Value::bare(count(net.size()[0]))),
+            "COLUMNS" => Some(Value::bare(count(net.size()[1]))),
+            _ => {
+                let radius = most_concave(net, RADIUS_ACCURACY).proven_radius();
+                radius.is_finite().then(|| Value::number(radius, Dim::LENGTH))
+            }
+        }
+    }
+
+    /// `SURFAC/ …`.
+    pub(super) fn surfac(&mut self, m: &Matched, name: Option<String>) {
+        let tool = self.ready("SURFAC", m);
+        let spacing = self.spacing(m);
+        let tool = tool.and_then(|tool| self.ball(m, tool));
+        let Some(Entity::Net(net)) = m.entity("net") else { return };
+        let net = *net;
+        let (Some(tool), Some(spacing)) = (tool, spacing) else { return };
+        let stock_top = self.state.stock.map(|s| match self.program.stocks[s].shape {
+            StockShape::Round { .. } => 0.0,
+            StockShape::Block { max, .. } => max.z,
+        });
+        let surface = Surface {
+            name,
+            net,
+            zigzag: m.word("order") != Some("ONEWAY"),
+            along: along(m),
+            spacing,
+            avoid: !m.all("gouge").any(|f| matches!(f.typed, Typed::Word("CHECK"))),
+            tool,
+            leave: m.number("leave").unwrap_or(self.state.thick),
+            band: self.state.band,
+            clearance: self.state.clearance,
+            stock_top,
+        };
+        self.step(StepKind::Surface(surface));
+        self.moved();
+    }
+
+    fn spacing(&mut self, m: &Matched) -> Option<Spacing> {
+        if let Some(step) = m.number("step") {
+            return Some(Spacing::Step(step));
+        }
+        let cusp = m.number("cusp").or(self.state.cusp);
+        if cusp.is_none() {
+            let message = "how close are the passes? There is neither a height of cusps nor a STEP";
+            self.report(
+                Diagnostic::new(&codes::NO_SPACING, m.word, message)
+                    .help("write `CUSP, 0.01` or `STEP, 0.5` here, or `CUSP/ 0.01` above"),
+            );
+        }
+        cusp.map(Spacing::Cusp)
+    }
+
+    /// The cutter, if it is a ball.
+    fn ball(&mut self, m: &Matched, tool: Handle<Tool>) -> Option<Handle<Tool>> {
+        let cutter = &self.program.tools[tool];
+        if cutter.kind == CutterKind::Ball {
+            return Some(tool);
+        }
+        let declared = self.program.origins[cutter.origin].span;
+        let message =
+            format!("{} is no ball-end cutter: only those finish surfaces in this version", cutter.name);
+        let help =
+            format!("declare one: `CUTTER/ BALL, {}`", self.show_length(cutter.diameter).replace(' ', ""));
+        self.report(
+            Diagnostic::new(&planning::NO_BALL, m.word, message).label(declared, "the cutter").help(help),
+        );
+        None
+    }
+}
+
+fn along(m: &Matched) -> Along {
+    match m.word("along") {
+        Some("V") => Along::V,
+        Some("X") => Along::X,
+        Some("Y") => Along::Y,
+        Some("ISOCSP") => Along::IsoCusp,
+        _ => Along::U,
+    }
+}
+
+/// The poles of the statement itself.
+fn listed(m: &Matched) -> Poles {
+    // Counts were checked to lie between 2 and 1000.
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+    let whole = |name: &str| m.number(name).unwrap_or(0.0) as usize;
+    let points = m.all("pole").filter_map(|f| match f.typed {
+        Typed::Vector(v) => Some(Point3::new(v.v[0], v.v[1], v.v[2])),
+        _ => None,
+    });
+    let weights: Vec<f64> = m
+        .all("weight")
+        .filter_map(|f| match f.typed {
+            Typed::Number(w) => Some(w),
+            _ => None,
+        })
+        .collect();
+    Poles {
+        rows: whole("rows"),
+        columns: whole("columns"),
+        points: points.collect(),
+        weights: m.word("weights").map(|_| weights),
+    }
+}
+
+/// Poles of a CSV text; on failure the line and what is wrong with it.
+fn read_poles(text: &str, length: &dyn Fn(f64) -> Option<f64>) -> Result<Poles, (usize, String)> {
+    let mut poles = Poles::default();
+    let mut weights = Vec::new();
+    let (mut fields, mut in_row) = (0, 0);
+    for (i, line) in text.lines().enumerate().map(|(i, l)| (i + 1, l.trim())) {
+        if line.starts_with('#') {
+            continue;
+        }
+        if line.is_empty() {
+            end_row(&mut poles, &mut in_row).map_err(|e| (i, e))?;
+            continue;
+        }
+        if fields == 0 {
+            let names: Vec<String> = line.split(',').map(|f| f.trim().to_ascii_lowercase()).collect();
+            let names: Vec<&str> = names.iter().map(String::as_str).collect();
+            fields = match names.as_slice() {
+                ["x", "y", "z"] => 3,
+                ["x", "y", "z", "w"] => 4,
+                _ => return Err((i, "the heading is neither `x,y,z` nor `x,y,z,w`".into())),
+            };
+            continue;
+        }
+        if poles.points.len() >= limits::TABLE_ROWS {
+            return Err((i, format!("the net has more than {} poles", limits::TABLE_ROWS)));
+        }
+        let numbers = numbers(line, fields).map_err(|e| (i, e))?;
+        let at = |k: usize| numbers.get(k).copied().and_then(length).unwrap_or(0.0);
+        poles.points.push(Point3::new(at(0), at(1), at(2)));
+        weights.extend(numbers.get(3));
+        in_row += 1;
+    }
+    let last = text.lines().count().max(1);
+    end_row(&mut poles, &mut in_row).map_err(|e| (last, e))?;
+    if poles.points.is_empty() {
+        return Err((last, "the file has no poles".into()));
+    }
+    poles.weights = (fields == 4).then_some(weights);
+    Ok(poles)
+}
+
+fn numbers(line: &str, fields: usize) -> Result<Vec<f64>, String> {
+    let mut numbers = Vec::with_capacity(fields);
+    for field in line.split(',').map(str::trim) {
+        match field.parse::<f64>() {
+            Ok(x) if x.is_finite() => numbers.push(x),
+            _ => return Err(format!("`{field}` is not a number")),
+        }
+    }
+    if numbers.len() == fields {
+        return Ok(numbers);
+    }
+    Err(format!("there are {} numbers in place of {fields}", numbers.len()))
+}
+
+fn end_row(poles: &mut Poles, in_row: &mut usize) -> Result<(), String> {
+    let length = core::mem::take(in_row);
+    if length == 0 {
+        return Ok(());
+    }
+    if poles.rows > 0 && length != poles.columns {
+        return Err(format!("this row has {length} poles, those before it {}", poles.columns));
+    }
+    poles.rows += 1;
+    poles.columns = length;
+    Ok(())
+}
+
+fn unsound(issue: &NetIssue, at: Span) -> Diagnostic {
+    let (message, help) = match issue {
+        NetIssue::Size { rows, columns } => (
+            format!("{rows} x {columns} poles are no net"),
+            "up to 16 x 16 poles are one patch; more must be (3m+1) x (3n+1), for m x n bicubic patches",
+        ),
+        NetIssue::Count { wanted, given } => (
+            format!(
+                "the net wants {wanted} poles, each with its weight where there are weights, and has {given}"
+            ),
+            "give the poles row by row",
+        ),
+        NetIssue::NotFinite => (
+            "a pole or weight of the net is not a finite number, or a weight is not positive".into(),
+            "correct it",
+        ),
+    };
+    Diagnostic::new(&geometry::NET_SHAPE, at, message).help(help)
+}

@@ -1,0 +1,69 @@
+//! Finished surfaces: the moves of the text, swept with the ball, against the exact surface.
+//!
+//! [`moves`] proves that no move goes deeper into the surface than `INTOL`, and that passes leave it by no more than
+//! `OUTTOL`; [`cover`] that the swept ball leaves nowhere more than the height of cusps and `OUTTOL` together.
+
+mod cover;
+mod moves;
+#[cfg(test)]
+mod tests;
+
+use super::certificate::{Deviation, SurfaceProof};
+use super::finding::Finding;
+use super::{Case, Placed};
+use crate::cl::Finish;
+
+/// What was measured of all moves of one operation.
+#[derive(Debug)]
+pub(super) struct Proof {
+    pub operation: usize,
+    pub proof: SurfaceProof,
+}
+
+/// A straight move of the ball's centre along the surface.
+#[derive(Debug, Clone, Copy)]
+struct Swept {
+    from: crate::geom::Point3,
+    to: crate::geom::Point3,
+    line: u32,
+    block: Option<usize>,
+}
+
+/// Proves all operations that finish a surface.
+pub(super) fn all(case: &Case<'_>) -> (Vec<Finding>, Vec<Proof>) {
+    let mut findings = Vec::new();
+    let mut proofs = Vec::new();
+    for (index, operation) in case.cl.operations.iter().enumerate() {
+        let Some(finish) = &operation.guard.surface else { continue };
+        let own: Vec<Placed<'_>> =
+            case.moves.iter().filter(|p| case.context(p.block).operation == Some(index)).copied().collect();
+        let swept = moves::check(case, operation, finish, &own, &mut findings);
+        let cover = cover::check(operation, finish, &swept.passes, &mut findings);
+        proofs.push(Proof { operation: index, proof: proof(finish, &swept, &cover) });
+    }
+    (findings, proofs)
+}
+
+fn proof(finish: &Finish, swept: &moves::Measured, cover: &cover::Cover) -> SurfaceProof {
+    let at = |e: &moves::Worst| Deviation {
+        value: e.value.max(0.0),
+        line: e.line,
+        x: e.at.x,
+        y: e.at.y,
+        z: e.at.z,
+    };
+    SurfaceProof {
+        radius: finish.radius,
+        leave: finish.leave,
+        cusp_asked: finish.cusp,
+        passes: swept.runs,
+        blocks: u32::try_from(swept.passes.len()).unwrap_or(u32::MAX),
+        length: swept.length,
+        into: at(&swept.into),
+        out: at(&swept.out),
+        cusp: cover.cusp.map(|w| at(&w)),
+        left: at(&cover.left),
+        left_bound: cover.bound,
+        unreachable: cover.unreachable.map(|w| at(&w)),
+    }
+}

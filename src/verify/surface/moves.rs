@@ -1,0 +1,196 @@
+//! Every move of an operation against its surface.
+
+use rayon::prelude::*;
+
+use super::Swept;
+use crate::cl::{Finish, Operation, RecordKind};
+use crate::diag::codes::verification as codes;
+use crate::geom::Point3;
+use crate::geom::surface::swept::{Extremes, Question, extremes};
+use crate::readback::TracePath;
+use crate::verify::finding::{Finding, Text};
+use crate::verify::{ACCURACY, Case, Placed};
+
+/// A measured extreme.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Worst {
+    pub value: f64,
+    pub line: u32,
+    pub block: Option<usize>,
+    pub at: Point3,
+}
+
+impl Worst {
+    pub(super) const NONE: Worst = Worst { value: 0.0, line: 0, block: None, at: Point3::new(0.0, 0.0, 0.0) };
+
+    pub(super) fn take(&mut self, other: Worst) {
+        if other.value > self.value {
+            *self = other;
+        }
+    }
+}
+
+/// What was measured of the moves of one operation.
+#[derive(Debug)]
+pub(super) struct Measured {
+    pub passes: Vec<Swept>,
+    pub runs: u32,
+    /// Length of the tip's path along passes, mm.
+    pub length: f64,
+    pub into: Worst,
+    pub out: Worst,
+}
+
+/// Moves with less than this between are told to be clear by boxes alone, mm.
+const CLEAR: f64 = 1.0;
+
+/// Checks all moves; findings are appended.
+pub(super) fn check(
+    case: &Case<'_>,
+    operation: &Operation,
+    finish: &Finish,
+    own: &[Placed<'_>],
+    findings: &mut Vec<Finding>,
+) -> Measured {
+    // The way from above onto the first vertex of a pass is not part of it.
+    let passes: Vec<bool> = own.iter().map(|p| is_pass(case, p)).collect();
+    let along = |i: usize| passes[i] && i.checked_sub(1).is_some_and(|before| passes[before]);
+    let results: Vec<One> =
+        own.par_iter().enumerate().map(|(i, p)| one(case, operation, finish, p, along(i))).collect();
+    let mut measured =
+        Measured { passes: Vec::new(), runs: 0, length: 0.0, into: Worst::NONE, out: Worst::NONE };
+    let mut record = None;
+    for (placed, found) in own.iter().zip(results) {
+        measured.into.take(found.into);
+        findings.extend(found.findings);
+        if let Some((swept, out)) = found.pass {
+            measured.out.take(out);
+            measured.length += (swept.to - swept.from).norm();
+            measured.passes.push(swept);
+            let of = record_of(case, placed);
+            measured.runs += u32::from(of != record);
+            record = of;
+        }
+    }
+    measured
+}
+
+struct One {
+    into: Worst,
+    pass: Option<(Swept, Worst)>,
+    findings: Vec<Finding>,
+}
+
+/// The CL record that a move expresses.
+fn record_of(case: &Case<'_>, placed: &Placed<'_>) -> Option<u32> {
+    case.target.blocks.get(placed.block?)?.record
+}
+
+/// Whether a move is part of a pass.
+fn is_pass(case: &Case<'_>, placed: &Placed<'_>) -> bool {
+    let record = record_of(case, placed).and_then(|r| case.cl.records.get(r as usize));
+    record.is_some_and(|r| matches!(r.kind, RecordKind::Pass(_)))
+}
+
+fn one(case: &Case<'_>, operation: &Operation, finish: &Finish, placed: &Placed<'_>, pass: bool) -> One {
+    let cut = placed.cut;
+    let mut result = One { into: Worst::NONE, pass: None, findings: Vec::new() };
+    if !cut.known.iter().all(|k| *k) {
+        return result;
+    }
+    let raised = |p: Point3| Point3::new(p.x, p.y, p.z + finish.radius);
+    let ball = finish.radius + finish.leave;
+    let allowed = if cut.rapid { 0.0 } else { operation.band.into };
+    let smoothing = if cut.rapid { 0.0 } else { cut.path_tolerance };
+    debug_assert!(!pass || is_pass(case, placed));
+    for (from, to) in chords(placed) {
+        let (from, to) = (raised(from), raised(to));
+        if !pass && clear(finish, from, to, ball) {
+            continue;
+        }
+        let little = if pass { ball } else { f64::INFINITY };
+        let question = Question { enough: ball, little, accuracy: 0.5 * ACCURACY };
+        let found = extremes(&finish.tree, from, to, &question, None);
+        let worst = |value: f64, at: Point3| Worst { value, line: placed.line, block: placed.block, at };
+        let into = worst(ball - found.least.distance, found.least.at);
+        result.into.take(into);
+        if !(into.value + smoothing <= allowed + ACCURACY) {
+            result.findings.push(gouge(operation, placed, &into, allowed));
+        }
+        if pass {
+            let out = worst(found.most.distance - ball, found.most.at);
+            result.findings.extend(excess(operation, placed, &found, &out, smoothing));
+            let swept = Swept { from, to, line: placed.line, block: placed.block };
+            result.pass = Some((swept, out));
+        }
+    }
+    if pass && cut.rapid {
+        let text = Text::default().words("a rapid along a surface");
+        result.findings.push(Finding::new(&codes::NOT_FOLLOWED, placed.line, placed.block, text));
+    }
+    result
+}
+
+/// Whether boxes tell that a move stays clear.
+fn clear(finish: &Finish, from: Point3, to: Point3, ball: f64) -> bool {
+    let (low, high) = finish.tree.bounds();
+    (0..3).any(|i| from[i].min(to[i]) > high[i] + ball + CLEAR || from[i].max(to[i]) < low[i] - ball - CLEAR)
+}
+
+/// A move as straight ways of the tip; arcs and curves, of which passes have none, by chords of a hundredth of a mm.
+fn chords(placed: &Placed<'_>) -> Vec<(Point3, Point3)> {
+    let (start, end) = (placed.cut.start(), placed.cut.end());
+    if matches!(placed.cut.path, TracePath::Line { .. }) {
+        return vec![(start, end)];
+    }
+    let count = (placed.cut.length() / 0.01).ceil().clamp(2.0, 1e6) as u32;
+    let primitives = crate::verify::path::Primitive::of(&placed.cut.path);
+    let (a, b) = placed.cut.z;
+    let share = 1.0 / crate::math::count(primitives.len().max(1));
+    let mut points = vec![start];
+    for (k, primitive) in primitives.iter().enumerate() {
+        let own = (f64::from(count) * share).ceil().max(1.0) as u32;
+        for i in 1..=own {
+            let f = f64::from(i) / f64::from(own);
+            let p = primitive.at(f).p;
+            points.push(Point3::new(p.x, p.y, a + (b - a) * share * (crate::math::count(k) + f)));
+        }
+    }
+    points.windows(2).map(|w| (w[0], w[1])).collect()
+}
+
+fn gouge(operation: &Operation, placed: &Placed<'_>, into: &Worst, allowed: f64) -> Finding {
+    let text = Text::default()
+        .words(if placed.cut.rapid { "a rapid goes " } else { "the cutter goes " })
+        .length(into.value)
+        .words(" into the surface with its centre at ")
+        .point(into.at.x, into.at.y)
+        .words(", Z ")
+        .length(into.at.z)
+        .words(format!("; {} may go ", operation.name))
+        .length(allowed);
+    Finding::new(&codes::SURFACE_GOUGED, placed.line, placed.block, text)
+}
+
+fn excess(
+    operation: &Operation,
+    placed: &Placed<'_>,
+    found: &Extremes,
+    out: &Worst,
+    smoothing: f64,
+) -> Option<Finding> {
+    let allowed = operation.band.out;
+    (!(out.value + smoothing <= allowed + ACCURACY)).then(|| {
+        let at = found.most.at;
+        let text = Text::default()
+            .words("the path leaves ")
+            .length(out.value)
+            .words(" on the surface with the ball's centre at ")
+            .point(at.x, at.y)
+            .words(", Z ")
+            .length(at.z)
+            .words(format!("; OUTTOL of {} is ", operation.name))
+            .length(allowed);
+        Finding::new(&codes::SURFACE_LEFT, placed.line, placed.block, text)
+    })
+}

@@ -1,0 +1,95 @@
+use crate::cl::{Cl, RecordKind};
+use crate::diag::Sink;
+use crate::driver::{self, Build, Options};
+use crate::post::{load, write};
+use crate::source::{MemoryFiles, SourceMap};
+use crate::target::{BlockKind, Motion, TargetProgram};
+use crate::verify::{Emitted, SurfaceProof, prove};
+
+/// A hollow of 30 by 24 mm, finished with a ball of 6 mm diameter.
+fn program(operation: &str) -> String {
+    format!(
+        "UNITS/ MM\nMACHIN/ LINUXCNC\n\
+         N1 = NET/ 4, 4, (0, 0, 0), (0, 8, 0), (0, 16, 0), (0, 24, 0), $\n\
+         (10, 0, 0), (10, 8, -11), (10, 16, -9), (10, 24, 0), $\n\
+         (20, 0, 0), (20, 8, -8), (20, 16, -12), (20, 24, 0), $\n\
+         (30, 0, 0), (30, 8, 0), (30, 16, 0), (30, 24, 0)\n\
+         T1 = CUTTER/ BALL, 6, NUMBER, 1\nLOADTL/ T1\nSPINDL/ 8000\nFEDRAT/ 800\nINTOL/ 0\nOUTTOL/ 0.01\nCLEARP/ 10\n\
+         S1 = SURFAC/ N1, {operation}\nFINI\n"
+    )
+}
+
+fn build(operation: &str) -> Build {
+    let mut files = MemoryFiles::default();
+    files.0.insert("part.apt".to_owned(), program(operation));
+    let build = driver::build("part.apt", &files, &Options::default());
+    assert!(!build.has_errors(), "{operation}: {:#?}", build.diagnostics);
+    build
+}
+
+fn proof(build: &Build) -> SurfaceProof {
+    let proven = build.outputs[0].proven.as_ref().expect("a proven program");
+    proven.certificate().operations[0].surface.clone().expect("a surface")
+}
+
+#[test]
+fn every_kind_of_pass_keeps_its_tolerances() {
+    for along in ["U", "V", "X", "Y", "ISOCSP"] {
+        let proof = proof(&build(&format!("ZIGZAG, {along}, CUSP, 0.02")));
+        assert!(proof.into.value <= 1e-6 && proof.out.value <= 0.01 + 1e-6, "{along}: {proof:?}");
+        let cusp = proof.cusp.expect("cusps").value;
+        assert!(cusp > 0.01 && cusp <= 0.0201, "{along}: {cusp}");
+        assert!(proof.left.value <= proof.left_bound && proof.unreachable.is_none(), "{along}: {proof:?}");
+    }
+}
+
+#[test]
+fn a_smaller_height_of_cusps_takes_more_passes() {
+    let passes = |h: &str| proof(&build(&format!("ONEWAY, U, CUSP, {h}"))).passes;
+    let (coarse, fine) = (passes("0.04"), passes("0.01"));
+    assert!(fine > coarse * 9 / 5 && fine < coarse * 23 / 10, "{coarse} {fine}");
+}
+
+#[test]
+fn a_ball_that_does_not_fit_is_lifted_and_says_what_stays() {
+    let mut files = MemoryFiles::default();
+    files.0.insert("part.apt".to_owned(), program("U, STEP, 1").replace("BALL, 6", "BALL, 40"));
+    let build = driver::build("part.apt", &files, &Options::default());
+    assert!(build.diagnostics.iter().any(|d| d.code.id == "W0541"), "{:#?}", build.diagnostics);
+    let proof = proof(&build);
+    assert!(proof.into.value <= 1e-6, "{proof:?}");
+    assert!(proof.unreachable.expect("material stays").value > 0.05);
+}
+
+/// Codes that come when every pass's vertex number `n` is moved in z by `steps` of the grid.
+fn bent(n: usize, steps: i64) -> Vec<&'static str> {
+    let build = build("ZIGZAG, U, CUSP, 0.02");
+    let (cl, mut target) =
+        (build.cl.as_ref().expect("CL"), build.outputs[0].target.clone().expect("a target"));
+    let vertex = passes(cl, &mut target).nth(n).expect("a vertex");
+    *vertex += steps;
+    let dialect = load("linuxcnc", &MemoryFiles::default(), &mut SourceMap::default()).expect("a post");
+    let written = write(&dialect, &target, &cl.origins).expect("a text");
+    let emitted = Emitted { text: written.text, lines: written.lines };
+    let mut sink = Sink::default();
+    assert!(prove(cl, &target, emitted, dialect.control(), &mut sink).is_none());
+    sink.items().iter().map(|d| d.code.id).collect()
+}
+
+fn passes<'t>(cl: &'t Cl, target: &'t mut TargetProgram) -> impl Iterator<Item = &'t mut i64> {
+    target.blocks.iter_mut().filter_map(|block| {
+        let record = cl.records.get(block.record? as usize)?;
+        match (&record.kind, &mut block.kind) {
+            (RecordKind::Pass(_), BlockKind::Motion(Motion::Line { to, .. })) => Some(&mut to.z),
+            _ => None,
+        }
+    })
+}
+
+#[test]
+fn a_vertex_too_deep_or_too_high_is_found() {
+    for n in [5, 60, 150] {
+        assert!(bent(n, -200).contains(&"E0820"), "{n}");
+        assert!(bent(n, 200).contains(&"E0821"), "{n}");
+    }
+}
