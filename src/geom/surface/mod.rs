@@ -8,7 +8,6 @@ pub mod drop;
 pub mod interval;
 pub mod net;
 pub mod patch;
-pub mod ridge;
 pub mod swept;
 pub mod track;
 pub mod tree;

@@ -43,12 +43,15 @@ pub struct Question {
 /// Distances above what is enough are told up to so much more, mm.
 const CLEAR: f64 = 2.0;
 /// Evaluations for one way before its bounds are reported in place of values.
-const BUDGET: u32 = 50_000;
+const BUDGET: u32 = 4_000;
 
 #[derive(Debug, Clone, Copy)]
 struct Sample {
     s: f64,
+    /// No point of the surface is nearer.
     d: f64,
+    /// The foot's own distance, and how it grows along the way.
+    above: f64,
     slope: f64,
     foot: Foot,
 }
@@ -70,10 +73,9 @@ pub fn extremes(
         let x = from + along * s;
         let foot = tree.nearest_within(x, hint, within);
         let d = foot.certain.min(foot.distance);
-        // Far away only the bound is known; the slope of a bound is not.
-        let near = foot.distance <= foot.certain + question.accuracy;
-        let slope = if near { (x - foot.point).dot(&along) / foot.distance.max(1e-12) } else { 0.0 };
-        Sample { s, d, slope, foot }
+        // Any point of the surface bounds the distance from above, the foot best.
+        let slope = (x - foot.point).dot(&along) / foot.distance.max(1e-12);
+        Sample { s, d, above: foot.distance, slope, foot }
     };
     let first = look(0.0, hint);
     let last = look(length, Some(&first.foot));
@@ -87,8 +89,9 @@ pub fn extremes(
         stack.push((middle, b));
         stack.push((a, middle));
     }
-    let at = |sample: &Sample| Extreme { distance: sample.d, at: from + along * sample.s };
-    Extremes { least: at(&hunt.least), most: at(&hunt.most), foot: last.foot }
+    let at = |distance: f64, sample: &Sample| Extreme { distance, at: from + along * sample.s };
+    let (least, most) = (at(hunt.least.d, &hunt.least), at(hunt.most.above, &hunt.most));
+    Extremes { least, most, foot: last.foot }
 }
 
 struct Hunt<'a> {
@@ -105,7 +108,7 @@ impl Hunt<'_> {
         if sample.d < self.least.d {
             self.least = *sample;
         }
-        if sample.d > self.most.d {
+        if sample.above > self.most.above {
             self.most = *sample;
         }
     }
@@ -124,7 +127,7 @@ impl Hunt<'_> {
         let (low, low_at) = below(a, b, k);
         let (high, high_at) = above(a, b, k);
         let deeper = low < (self.least.d - self.question.accuracy).min(self.question.enough);
-        let farther = high > (self.most.d + self.question.accuracy).max(self.question.little);
+        let farther = high > (self.most.above + self.question.accuracy).max(self.question.little);
         if !deeper && !farther {
             return None;
         }
@@ -143,7 +146,7 @@ impl Hunt<'_> {
             self.least = Sample { d: low.0, ..*a };
         }
         if high.1 {
-            self.most = Sample { d: high.0, ..*a };
+            self.most = Sample { above: high.0, ..*a };
         }
         debug_assert!(self.from.x.is_finite() && self.along.x.is_finite());
     }
@@ -162,11 +165,11 @@ fn below(a: &Sample, b: &Sample, k: f64) -> (f64, f64) {
 /// Upper bound between two samples, and where it is.
 fn above(a: &Sample, b: &Sample, k: f64) -> (f64, f64) {
     let h = b.s - a.s;
-    let from_a = |s: f64| a.d + a.slope * s + 0.5 * k * s * s;
-    let from_b = |s: f64| b.d - b.slope * (h - s) + 0.5 * k * (h - s) * (h - s);
+    let from_a = |s: f64| a.above + a.slope * s + 0.5 * k * s * s;
+    let from_b = |s: f64| b.above - b.slope * (h - s) + 0.5 * k * (h - s) * (h - s);
     let lower = |s: f64| from_a(s).min(from_b(s));
     let mut best = if lower(0.0) >= lower(h) { (lower(0.0), a.s) } else { (lower(h), b.s) };
-    let (gap, rate) = (from_b(0.0) - a.d, a.slope - b.slope + k * h);
+    let (gap, rate) = (from_b(0.0) - a.above, a.slope - b.slope + k * h);
     let meet = gap / rate;
     if rate.abs() > 0.0 && meet > 0.0 && meet < h && lower(meet) > best.0 {
         best = (lower(meet), a.s + meet);
@@ -197,7 +200,7 @@ mod tests {
     fn extremes_are_those_of_dense_samples() {
         let tree = bowl();
         let (from, to) = (Point3::new(12.0, 20.0, 12.2), Point3::new(30.0, 24.0, 14.9));
-        let question = Question { enough: f64::INFINITY, little: 0.0, accuracy: 1e-7 };
+        let question = Question { enough: f64::INFINITY, little: 0.0, accuracy: 1e-9 };
         let found = extremes(&tree, from, to, &question, None);
         let samples: Vec<f64> = (0..=2000u32)
             .map(|k| tree.nearest(from + (to - from) * (f64::from(k) / 2000.0), None).distance)

@@ -71,7 +71,7 @@ impl Track {
         let centre = jet.p + normal * self.radius;
         let own = Foot { patch, uv: [s, t], point: jet.p, distance: self.radius, certain: self.radius };
         let nearest = self.tree.nearest(centre, Some(&own));
-        if nearest.certain >= self.radius - TOUCHES {
+        if nearest.distance >= self.radius - TOUCHES {
             return Some(Contact { centre, normal, foot: own });
         }
         self.lifted(centre, nearest)

@@ -5,13 +5,20 @@
 //! F(u,v) = |x - r(u,v)|²/2, that is G - (x - r)·D, is positive definite by interval arithmetic, F is convex, so
 //! that Newton's method over the rectangle gives the one minimum; where it is not, the leaf is cut up further.
 
+mod bend;
+mod place;
+mod quest;
+
 use core::cell::RefCell;
 
 use super::curvature::{Derivatives, hulls};
 use super::interval::Interval;
 use super::net::Net;
-use super::patch::{Patch, SurfaceJet};
+use super::patch::Patch;
 use crate::geom::{Point3, Vec3};
+use bend::Bend;
+use place::descend;
+use quest::Quest;
 
 /// The foot of a point on a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -63,54 +70,6 @@ struct Leaf {
     bend: Bend,
 }
 
-/// What the Hessian of F takes from the derivatives over a rectangle, for a quick test of convexity.
-#[derive(Debug, Clone, Copy)]
-struct Bend {
-    /// Lower bounds of r_u² and r_v².
-    squares: [f64; 2],
-    /// Middle and half width of r_u·r_v.
-    mixed: (f64, f64),
-    /// Middles and half widths of r_uu, r_uv, r_vv.
-    second: [(Vec3, Vec3); 3],
-}
-
-impl Bend {
-    /// Relative slack for rounding: a few dozen operations.
-    const ROUNDING: f64 = 1e-13;
-
-    fn new(derivatives: &[[Interval; 3]; 5]) -> Bend {
-        let [ru, rv, ruu, ruv, rvv] = derivatives;
-        let squares = |a: &[Interval; 3]| (a[0].square() + a[1].square() + a[2].square()).lo;
-        let mixed = ru[0] * rv[0] + ru[1] * rv[1] + ru[2] * rv[2];
-        let split = |a: &[Interval; 3]| {
-            let middle = a.map(|i| 0.5 * (i.lo + i.hi));
-            let half = core::array::from_fn(|k| (a[k].hi - middle[k]).max(middle[k] - a[k].lo));
-            (Vec3::from(middle), Vec3::from(half))
-        };
-        let middle = 0.5 * (mixed.lo + mixed.hi);
-        Bend {
-            squares: [squares(ru), squares(rv)],
-            mixed: (middle, (mixed.hi - middle).max(middle - mixed.lo)),
-            second: [split(ruu), split(ruv), split(rvv)],
-        }
-    }
-
-    /// Whether G - offset·D is positive definite for all offsets within `half` of `middle`, over the whole rectangle.
-    fn convex(&self, middle: Vec3, half: Vec3) -> bool {
-        let size = middle.abs();
-        let products = self.second.map(|(c, r)| {
-            let spread = size.dot(&r) + c.abs().dot(&half) + half.dot(&r);
-            let value = middle.dot(&c);
-            (value, spread + Bend::ROUNDING * (size.dot(&c.abs()) + spread))
-        });
-        let low =
-            |k: usize, i: usize| self.squares[k] * (1.0 - Bend::ROUNDING) - products[i].0 - products[i].1;
-        let (h11, h22) = (low(0, 0), low(1, 2));
-        let most = (self.mixed.0 - products[1].0).abs() + self.mixed.1 + products[1].1;
-        h11 > 0.0 && h22 > 0.0 && h11 * h22 > most * most * (1.0 + Bend::ROUNDING)
-    }
-}
-
 /// Parameter rectangle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Area {
@@ -130,11 +89,27 @@ impl Area {
         let (left, right) = ((self.v.0, mv), (mv, self.v.1));
         [(low, left), (low, right), (high, left), (high, right)].map(|(u, v)| Area { u, v })
     }
+    /// Whether it has a width in u, and in v.
+    fn extends(&self) -> [bool; 2] {
+        [self.u.0 < self.u.1, self.v.0 < self.v.1]
+    }
+    /// Half of its widths.
+    fn half(&self) -> [f64; 2] {
+        [0.5 * (self.u.1 - self.u.0), 0.5 * (self.v.1 - self.v.0)]
+    }
+    /// Its quarters, or halves where it is but a line.
+    fn parts(&self, mut take: impl FnMut(Area)) {
+        let [q, r, s, t] = self.quarters();
+        let parts: &[Area] = match self.extends() {
+            [true, true] => &[q, r, s, t],
+            [true, false] => &[q, s],
+            [false, true] => &[q, r],
+            [false, false] => &[],
+        };
+        parts.iter().copied().for_each(&mut take);
+    }
     fn clamp(&self, [u, v]: [f64; 2]) -> [f64; 2] {
         [u.clamp(self.u.0, self.u.1), v.clamp(self.v.0, self.v.1)]
-    }
-    fn contains(&self, [u, v]: [f64; 2]) -> bool {
-        (self.u.0..=self.u.1).contains(&u) && (self.v.0..=self.v.1).contains(&v)
     }
 }
 
@@ -181,8 +156,8 @@ const DEEPEST: u32 = 7;
 const SHALLOWEST: u32 = 3;
 /// Newton steps that move the point by less, mm, end the iteration; the distance errs by its square.
 const SETTLED: f64 = 1e-7;
-/// Rectangles of non-convex leaves that one question may examine.
-const MOST_PIECES: u32 = 4_000;
+/// Pieces of leaves that one question may cut up.
+const MOST_PIECES: u32 = 2_000;
 /// Distances that agree so well are the same, mm.
 const SAME: f64 = 1e-10;
 
@@ -301,10 +276,18 @@ impl SurfaceTree {
         };
         let first = descend(&self.net.patches()[start.0], x, start.1, &Area::WHOLE);
         let best = first.foot(start.0);
-        let limit = best.distance.min(within);
-        let mut quest = Quest { tree: self, x, best, limit, open: f64::INFINITY };
+        let mut quest = Quest::new(self, x, best, within);
         STACK.with_borrow_mut(|stack| quest.run(stack));
         quest.finish()
+    }
+
+    /// Whether some point of the surface is nearer to `x` than `distance`; true as well where the search was given up.
+    #[must_use]
+    pub fn comes_within(&self, x: Point3, hint: &Foot, distance: f64) -> bool {
+        let first = descend(&self.net.patches()[hint.patch], x, Area::WHOLE.clamp(hint.uv), &Area::WHOLE);
+        let mut quest = Quest::new(self, x, first.foot(hint.patch), distance).until(distance);
+        STACK.with_borrow_mut(|stack| quest.run(stack));
+        quest.finish().certain < distance
     }
 
     /// The stationary point of the distance that Newton's method finds from `hint` on its patch: near by, but not
@@ -427,213 +410,6 @@ fn box_distance(node: &Node, x: Point3) -> f64 {
     let beyond = |i: usize| (node.low[i] - x[i]).max(x[i] - node.high[i]).max(0.0);
     let (dx, dy, dz) = (beyond(0), beyond(1), beyond(2));
     (dx * dx + dy * dy + dz * dz).sqrt()
-}
-
-/// A point of a patch and its square distance.
-#[derive(Debug, Clone, Copy)]
-struct Place {
-    uv: [f64; 2],
-    jet: SurfaceJet,
-    square: f64,
-}
-
-impl Place {
-    fn new(patch: &Patch, x: Point3, uv: [f64; 2]) -> Place {
-        let jet = patch.jet(uv[0], uv[1]);
-        Place { uv, square: (x - jet.p).norm_squared(), jet }
-    }
-    fn foot(&self, patch: usize) -> Foot {
-        let distance = self.square.sqrt();
-        Foot { patch, uv: self.uv, point: self.jet.p, distance, certain: distance }
-    }
-    /// Gradient of F.
-    fn gradient(&self, x: Point3) -> [f64; 2] {
-        let offset = x - self.jet.p;
-        [-offset.dot(&self.jet.u), -offset.dot(&self.jet.v)]
-    }
-    /// Newton's step in the free parameters, or Gauss and Newton's where F is not convex.
-    fn step(&self, x: Point3, g: [f64; 2], free: [bool; 2]) -> [f64; 2] {
-        let (offset, jet) = (x - self.jet.p, &self.jet);
-        let [g11, g12, g22] = jet.first();
-        let curved = [g11 - offset.dot(&jet.uu), g12 - offset.dot(&jet.uv), g22 - offset.dot(&jet.vv)];
-        let positive = |h: &[f64; 3]| match free {
-            [true, true] => h[0] > 0.0 && h[0] * h[2] > h[1] * h[1] * (1.0 + 1e-9),
-            [true, false] => h[0] > 0.0,
-            _ => h[2] > 0.0,
-        };
-        let h = if positive(&curved) { curved } else { [g11, g12, g22] };
-        match free {
-            [true, true] => {
-                let det = h[0] * h[2] - h[1] * h[1];
-                if !(det > 0.0) {
-                    return [0.0, 0.0];
-                }
-                [(h[1] * g[1] - h[2] * g[0]) / det, (h[1] * g[0] - h[0] * g[1]) / det]
-            }
-            [true, false] if h[0] > 0.0 => [-g[0] / h[0], 0.0],
-            [false, true] if h[2] > 0.0 => [0.0, -g[1] / h[2]],
-            _ => [0.0, 0.0],
-        }
-    }
-}
-
-/// Which parameters may move: not those at an edge that the gradient pushes against.
-fn free(uv: [f64; 2], g: [f64; 2], area: &Area) -> [bool; 2] {
-    let one = |t: f64, g: f64, (a, b): (f64, f64)| !(t <= a && g >= 0.0 || t >= b && g <= 0.0);
-    [one(uv[0], g[0], area.u), one(uv[1], g[1], area.v)]
-}
-
-/// Minimises the distance over a rectangle from `start`; exact where F is convex.
-fn descend(patch: &Patch, x: Point3, start: [f64; 2], area: &Area) -> Place {
-    const STEPS: u32 = 40;
-    let mut at = Place::new(patch, x, area.clamp(start));
-    for _ in 0..STEPS {
-        let g = at.gradient(x);
-        let free = free(at.uv, g, area);
-        if free == [false, false] {
-            break;
-        }
-        let [du, dv] = at.step(x, g, free);
-        let Some((next, moved)) = improve(patch, x, &at, [du, dv], area) else { break };
-        at = next;
-        if moved < SETTLED {
-            break;
-        }
-    }
-    at
-}
-
-/// The step, halved until it makes the distance smaller; `None` where it cannot. With the way it moved, mm.
-fn improve(patch: &Patch, x: Point3, at: &Place, step: [f64; 2], area: &Area) -> Option<(Place, f64)> {
-    let mut part = 1.0;
-    for _ in 0..12 {
-        let uv = area.clamp([at.uv[0] + part * step[0], at.uv[1] + part * step[1]]);
-        let moved = (at.jet.u * (uv[0] - at.uv[0]) + at.jet.v * (uv[1] - at.uv[1])).norm();
-        if !(moved > 1e-13) {
-            return None;
-        }
-        let next = Place::new(patch, x, uv);
-        if next.square <= at.square || moved < SETTLED {
-            return Some((if next.square <= at.square { next } else { *at }, moved));
-        }
-        part *= 0.5;
-    }
-    None
-}
-
-/// One question.
-struct Quest<'a> {
-    tree: &'a SurfaceTree,
-    x: Point3,
-    best: Foot,
-    /// What is farther is of no interest.
-    limit: f64,
-    /// Smallest bound of what was given up.
-    open: f64,
-}
-
-impl Quest<'_> {
-    fn finish(mut self) -> Foot {
-        self.best.certain = self.limit.min(self.open);
-        self.best
-    }
-
-    fn run(&mut self, stack: &mut Vec<(f64, u32)>) {
-        stack.clear();
-        stack.push((0.0, 0));
-        while let Some((bound, next)) = stack.pop() {
-            if bound >= self.limit {
-                continue;
-            }
-            let node = &self.tree.nodes[next as usize];
-            match node.kind {
-                Kind::Leaf(leaf) => self.leaf(&self.tree.leaves[leaf as usize]),
-                Kind::Branch(first, count) => {
-                    for child in first..first + count {
-                        let bound = box_distance(&self.tree.nodes[child as usize], self.x);
-                        if bound < self.limit {
-                            stack.push((bound, child));
-                        }
-                    }
-                }
-            }
-        }
-    }
-
-    fn leaf(&mut self, leaf: &Leaf) {
-        if leaf.slab.distance(self.x) >= self.limit - SAME {
-            return;
-        }
-        let own = self.best.patch == leaf.patch;
-        let (middle, half) = self.offset(&leaf.hull);
-        let convex = leaf.bend.convex(middle, half);
-        if own && convex && leaf.area.contains(self.best.uv) {
-            return;
-        }
-        let patch = &self.tree.net.patches()[leaf.patch];
-        let near =
-            Place::new(patch, self.x, leaf.area.clamp(if own { self.best.uv } else { leaf.area.middle() }));
-        if !convex {
-            let mut budget = MOST_PIECES;
-            return self.pieces(leaf, &mut budget);
-        }
-        if self.above(&near, &leaf.area) {
-            return;
-        }
-        self.take(descend(patch, self.x, near.uv, &leaf.area), leaf.patch);
-    }
-
-    /// Whether a convex F is above the best over the whole rectangle, by its tangent plane at `at`.
-    fn above(&self, at: &Place, area: &Area) -> bool {
-        let g = at.gradient(self.x);
-        let least = |g: f64, t: f64, (a, b): (f64, f64)| (g * (a - t)).min(g * (b - t));
-        let low = 0.5 * at.square + least(g[0], at.uv[0], area.u) + least(g[1], at.uv[1], area.v);
-        let best = (self.limit - SAME).max(0.0);
-        low >= 0.5 * best * best
-    }
-
-    /// x - r for all points r in a box: middle and half width.
-    fn offset(&self, hull: &[Interval; 3]) -> (Vec3, Vec3) {
-        let middle = Vec3::from(hull.map(|i| 0.5 * (i.lo + i.hi)));
-        (self.x.coords - middle, Vec3::from(hull.map(|i| 0.5 * (i.hi - i.lo))) * (1.0 + 1e-12))
-    }
-
-    fn take(&mut self, place: Place, patch: usize) {
-        let foot = place.foot(patch);
-        if foot.distance < self.best.distance {
-            self.best = foot;
-            self.limit = self.limit.min(foot.distance);
-        }
-    }
-
-    /// A leaf over which F is not convex: cut up until each piece is, or lies beyond the best.
-    fn pieces(&mut self, leaf: &Leaf, budget: &mut u32) {
-        let patch = &self.tree.net.patches()[leaf.patch];
-        let mut stack = leaf.area.quarters().to_vec();
-        while let Some(area) = stack.pop() {
-            let piece = patch.restrict(area.u, area.v);
-            let slab = Slab::new(&piece);
-            let bound = slab.distance(self.x);
-            if bound >= self.limit - SAME {
-                continue;
-            }
-            let bend = Bend::new(&self.tree.derivatives[leaf.patch].boxes(area.u, area.v));
-            let (middle, half) = self.offset(&hull(&piece));
-            if bend.convex(middle, half) {
-                self.take(descend(patch, self.x, area.middle(), &area), leaf.patch);
-                continue;
-            }
-            self.take(descend(patch, self.x, area.middle(), &area), leaf.patch);
-            // Pieces this flat cannot hold a point nearer by more than what counts.
-            const FLAT: f64 = 1e-9;
-            if *budget == 0 || bound >= self.limit - FLAT {
-                self.open = self.open.min(bound);
-                continue;
-            }
-            *budget -= 1;
-            stack.extend(area.quarters());
-        }
-    }
 }
 
 #[cfg(test)]

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use super::march;
-use super::share::{self, Target};
+use super::ridge::Target;
+use super::spread::{self, COLUMNS, Line};
 use crate::geom::Point2;
 use crate::geom::surface::{Contact, Guide, SurfaceTree, Track, drop_ball};
 use crate::ir::{Along, Spacing, Surface};
@@ -70,6 +70,31 @@ impl Family {
                 let (a, b) = range(outline.iter().map(|p| p[1 - axis]));
                 let inset = (INSET * self.ball).min(0.1 * (b - a));
                 (a + inset, b - inset)
+            }
+        }
+    }
+
+    /// How wide the passes lie in all, mm: no more than the poles' own way across.
+    pub(super) fn width(&self) -> f64 {
+        let (first, last) = self.across();
+        match &self.kind {
+            Kind::Line(..) => last - first,
+            Kind::Parameter(axis) => {
+                let (low, high) = self.tree.bounds();
+                let diagonal = (high - low).norm();
+                let net = self.tree.net();
+                let size = net.size().map(count);
+                let at = |along: f64, across: f64| {
+                    let uv = if *axis == 0 { [along, across] } else { [across, along] };
+                    net.jet(uv[0], uv[1]).p
+                };
+                const PARTS: u32 = 16;
+                let way = |along: f64| -> f64 {
+                    let place = |k: u32| at(along, size[1 - axis] * f64::from(k) / f64::from(PARTS));
+                    (0..PARTS).map(|k| (place(k + 1) - place(k)).norm()).sum()
+                };
+                let widest = [0.0, 0.25, 0.5, 0.75, 1.0].map(|f| way(size[*axis] * f));
+                widest.iter().copied().fold(0.0, f64::max).min(4.0 * diagonal)
             }
         }
     }
@@ -161,13 +186,33 @@ impl Family {
         }
     }
 
-    fn tracks(&self, surface: &Surface, target: Target) -> Result<Vec<Track>, String> {
-        if surface.along == Along::IsoCusp {
-            let curves = march::curves(self, target)?;
-            return Ok(curves.into_iter().map(|c| self.track(Guide::Curve(Arc::new(c)))).collect());
+    /// The passes as tracks, each with its room.
+    fn tracks(&self, surface: &Surface, target: Target) -> Result<Vec<(Track, Vec<f64>)>, String> {
+        let curved = surface.along == Along::IsoCusp;
+        let spread = spread::spread(self, target, curved)?;
+        if self.is_plane() {
+            let places: Vec<f64> = spread.lines.iter().map(|line| line[0]).collect();
+            return Ok((0..places.len())
+                .filter_map(|k| Some((self.pass(&places, k)?, Vec::new())))
+                .collect());
         }
-        let places = march::places(self, target)?;
-        Ok((0..places.len()).filter_map(|k| self.pass(&places, k)).collect())
+        let rooms = spread.rooms(target);
+        let track = |line: &Line| if curved { self.bent(line) } else { self.straight(line[0]) };
+        Ok(spread.lines.iter().map(track).zip(rooms).collect())
+    }
+
+    /// A pass along a parameter line.
+    fn straight(&self, across: f64) -> Track {
+        let Kind::Parameter(axis) = self.kind else { return self.bent(&vec![across; COLUMNS]) };
+        self.parameter_track(axis, across, self.along(across).unwrap_or((0.0, 1.0)))
+    }
+
+    /// A pass along a curve in the parameters.
+    fn bent(&self, line: &Line) -> Track {
+        let (from, to) = self.along(line[0]).unwrap_or((0.0, 1.0));
+        let at = |k: usize| from + (to - from) * count(k) / count(COLUMNS - 1);
+        let places = line.iter().enumerate().map(|(k, across)| [at(k), *across]).collect();
+        self.track(Guide::Curve(Arc::new(places)))
     }
 
     /// All passes and the ways between them, in the order they are cut.
@@ -177,22 +222,17 @@ impl Family {
             Spacing::Step(s) => Target::Step(s),
         };
         let mut tracks = self.tracks(surface, target)?;
-        let mut rooms = if self.is_plane() {
-            vec![Vec::new(); tracks.len()]
-        } else {
-            share::rooms(self, target, &tracks)
-        };
         if tracks.is_empty() {
             return Err("no pass meets the surface".into());
         }
         if surface.zigzag {
-            for (track, room) in tracks.iter_mut().zip(&mut rooms).skip(1).step_by(2) {
+            for (track, room) in tracks.iter_mut().skip(1).step_by(2) {
                 *track = track.reversed();
                 room.reverse();
             }
         }
         let mut legs: Vec<Leg> = Vec::with_capacity(2 * tracks.len());
-        for (track, room) in tracks.into_iter().zip(rooms) {
+        for (track, room) in tracks {
             let link = match legs.last() {
                 Some(before) if surface.zigzag => self.link(&before.track, &track),
                 _ => None,

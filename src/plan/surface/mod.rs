@@ -1,12 +1,12 @@
 //! Finishing of surfaces: passes of a ball-end cutter over a net.
 //!
-//! [`family`] says what the passes of an operation are, [`march`] how close they lie, [`entry`] how the cutter comes onto
+//! [`family`] says what the passes of an operation are, [`spread`] how close they lie, [`entry`] how the cutter comes onto
 //! the surface. Passes stay exact tracks: `lower` fits them.
 
 mod entry;
 mod family;
-mod march;
-mod share;
+mod ridge;
+mod spread;
 
 use std::sync::Arc;
 

@@ -31,6 +31,9 @@ pub(super) struct Cover {
 
 /// Tiles of a patch in each direction, checked in parallel.
 const TILES: u32 = 16;
+/// Moves that leave more than this times what is allowed are not looked for: what is then reported is more than allowed,
+/// too.
+const INTEREST: f64 = 1.5;
 /// Cells of one tile at most.
 const MOST_CELLS: u32 = 400_000;
 /// Cells are not cut below this size, mm.
@@ -44,9 +47,9 @@ pub(super) fn check(
     findings: &mut Vec<Finding>,
 ) -> Cover {
     // On a convex surface the chords of a path that is off by OUTTOL leave more at their ends, by the radii' ratio.
-    let bulge = 1.0 + (finish.radius + finish.leave) * most_convex(finish);
+    let bulge = (1.0 + (finish.radius + finish.leave) * most_convex(finish)).max(1.0);
     let allowed = finish.cusp.map(|h| h + operation.band.out * bulge + ACCURACY);
-    let field = Field::new(operation, finish, passes, allowed.unwrap_or(0.5));
+    let field = Field::new(operation, finish, passes, (allowed.unwrap_or(0.5), bulge));
     let tiles: Vec<(usize, u32)> = (0..finish.tree.net().patches().len())
         .flat_map(|patch| (0..TILES * TILES).map(move |tile| (patch, tile)))
         .collect();
@@ -127,6 +130,8 @@ struct Field<'a> {
     /// How far the path may be off the surface.
     out: f64,
     passes: &'a [Swept],
+    /// Moves whose centres pass farther beside a point leave more there than is of interest, mm.
+    around: f64,
     low: [f64; 2],
     cell: f64,
     counts: [usize; 2],
@@ -160,7 +165,12 @@ struct Corner {
 }
 
 impl<'a> Field<'a> {
-    fn new(operation: &Operation, finish: &'a Finish, passes: &'a [Swept], allowed: f64) -> Field<'a> {
+    fn new(
+        operation: &Operation,
+        finish: &'a Finish,
+        passes: &'a [Swept],
+        (allowed, bulge): (f64, f64),
+    ) -> Field<'a> {
         let mut low = [f64::INFINITY; 2];
         let mut high = [f64::NEG_INFINITY; 2];
         for swept in passes {
@@ -183,6 +193,7 @@ impl<'a> Field<'a> {
             ceiling: 4.0 * allowed + finish.radius * 0.5,
             out: operation.band.out,
             passes,
+            around: (2.0 * finish.radius * INTEREST * allowed * bulge).sqrt().min(finish.radius),
             low,
             cell,
             counts,
@@ -220,7 +231,7 @@ impl<'a> Field<'a> {
                 high[i] = high[i].max(centre[i]);
             }
         }
-        let around = 0.5 * self.cell;
+        let around = self.around;
         let (x, y) = (
             self.index(0, (low[0] - around, high[0] + around)),
             self.index(1, (low[1] - around, high[1] + around)),
@@ -410,7 +421,7 @@ impl Tile<'_> {
     fn reaches(&self, at: &Corner) -> bool {
         let (centre, ball) = (at.p + at.n * self.field.ball, self.field.ball);
         let foot = Foot { patch: self.patch, uv: at.uv, point: at.p, distance: ball, certain: 0.0 };
-        self.field.tree.nearest_within(centre, Some(&foot), ball).certain >= ball - 1e-7
+        !self.field.tree.comes_within(centre, &foot, ball - 1e-7)
     }
 
     fn note(&mut self, at: &Corner, height: f64, by: u32, near: &[u32]) {
