@@ -43,7 +43,7 @@ pub struct Question {
 /// Distances above what is enough are told up to so much more, mm.
 const CLEAR: f64 = 2.0;
 /// Evaluations for one way before its bounds are reported in place of values.
-const BUDGET: u32 = 4_000;
+const BUDGET: u32 = 20_000;
 
 #[derive(Debug, Clone, Copy)]
 struct Sample {

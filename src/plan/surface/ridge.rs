@@ -170,15 +170,16 @@ impl Between<'_> {
     /// Square root of the ridge's height, mm; `None` where the ball touches nothing. Roots grow evenly from each pass,
     /// so that the ridge, where they meet, is found in two steps.
     fn ridge(&self, hint: &mut Option<Contact>) -> Option<f64> {
-        let (left, right) = self.roots(0.5, hint)?;
-        if !(left.is_finite() && right.is_finite()) {
+        let (a, b) = self.roots(0.5, hint)?;
+        if !(a.is_finite() && b.is_finite()) {
             return Some(f64::INFINITY);
         }
-        let share = if left + right > 0.0 { right / (left + right) } else { 0.5 };
-        let Some((left, right)) = self.roots(share.clamp(0.1, 0.9), hint) else {
-            return Some(left.min(right));
-        };
-        Some(0.5 * (left + right))
+        let share = if a + b > 0.0 { b / (a + b) } else { 0.5 };
+        let Some((c, d)) = self.roots(share.clamp(0.1, 0.9), hint) else { return Some(a.min(b)) };
+        let (before, after) = (a - b, c - d);
+        let rest = after / (before - after);
+        let root = if rest.abs() < 1.0 { c + (c - a) * rest } else { 0.5 * (c + d) };
+        Some(root.max(c.min(d)))
     }
 
     /// Square roots of the heights that either pass leaves at a share of the way from one to the other.

@@ -44,6 +44,9 @@ pub(super) struct Measured {
 /// Moves with less than this between are told to be clear by boxes alone, mm.
 const CLEAR: f64 = 1.0;
 
+/// Largest distances are told exactly where they are more than this share of `OUTTOL`; others are sampled.
+const OFF: f64 = 0.9;
+
 /// Checks all moves; findings are appended.
 pub(super) fn check(
     case: &Case<'_>,
@@ -108,7 +111,7 @@ fn one(case: &Case<'_>, operation: &Operation, finish: &Finish, placed: &Placed<
         if !pass && clear(finish, from, to, ball) {
             continue;
         }
-        let little = if pass { ball } else { f64::INFINITY };
+        let little = if pass { ball + OFF * operation.band.out } else { f64::INFINITY };
         let question = Question { enough: ball, little, accuracy: 0.5 * ACCURACY };
         let found = extremes(&finish.tree, from, to, &question, None);
         let worst = |value: f64, at: Point3| Worst { value, line: placed.line, block: placed.block, at };
