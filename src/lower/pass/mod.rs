@@ -14,12 +14,12 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use super::fit::ribbon;
-use super::place::at_origin;
 use crate::cl::{Cl, Pass, RecordKind};
 use crate::diag::{Sink, codes};
 use crate::geom::surface::swept::{Question, extremes};
 use crate::geom::surface::{Contact, Foot, Guide, Track};
 use crate::geom::{Point2, Point3};
+use crate::ir::at_origin;
 use crate::target::Capabilities;
 use chart::Chart;
 use vertex::{Lattice, Vertex};
