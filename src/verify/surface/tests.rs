@@ -53,7 +53,7 @@ fn a_smaller_height_of_cusps_takes_more_passes() {
 #[test]
 fn a_ball_that_does_not_fit_is_lifted_and_says_what_stays() {
     let mut files = MemoryFiles::default();
-    files.0.insert("part.apt".to_owned(), program("U, STEP, 1").replace("BALL, 6", "BALL, 40"));
+    files.0.insert("part.apt".to_owned(), program("U, STEP, 2").replace("BALL, 6", "BALL, 40"));
     let build = driver::build("part.apt", &files, &Options::default());
     assert!(build.diagnostics.iter().any(|d| d.code.id == "W0541"), "{:#?}", build.diagnostics);
     let proof = proof(&build);
@@ -62,8 +62,7 @@ fn a_ball_that_does_not_fit_is_lifted_and_says_what_stays() {
 }
 
 /// Codes that come when every pass's vertex number `n` is moved in z by `steps` of the grid.
-fn bent(n: usize, steps: i64) -> Vec<&'static str> {
-    let build = build("ZIGZAG, U, CUSP, 0.02");
+fn bent(build: &Build, n: usize, steps: i64) -> Vec<&'static str> {
     let (cl, mut target) =
         (build.cl.as_ref().expect("CL"), build.outputs[0].target.clone().expect("a target"));
     let vertex = passes(cl, &mut target).nth(n).expect("a vertex");
@@ -88,8 +87,9 @@ fn passes<'t>(cl: &'t Cl, target: &'t mut TargetProgram) -> impl Iterator<Item =
 
 #[test]
 fn a_vertex_too_deep_or_too_high_is_found() {
+    let build = build("ZIGZAG, U, CUSP, 0.02");
     for n in [5, 60, 150] {
-        assert!(bent(n, -200).contains(&"E0820"), "{n}");
-        assert!(bent(n, 200).contains(&"E0821"), "{n}");
+        assert!(bent(&build, n, -200).contains(&"E0820"), "{n}");
+        assert!(bent(&build, n, 200).contains(&"E0821"), "{n}");
     }
 }
