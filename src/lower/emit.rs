@@ -19,11 +19,14 @@ use crate::target::{
     axes,
 };
 
+/// Chain of every record that is a pass.
+type Passes = [Option<Arc<super::pass::Chain>>];
+
 /// Emits all records. `fitted` is what [`super::contour::fit_all`] gave, `passes` what [`super::pass::fit_all`] gave.
 pub(super) fn program(
     cl: &Cl,
     capabilities: &Capabilities,
-    (fitted, passes): (&[Option<Arc<Fitted>>], &[Option<Arc<super::pass::Chain>>]),
+    (fitted, passes): (&[Option<Arc<Fitted>>], &Passes),
     sink: &mut Sink,
 ) -> Option<TargetProgram> {
     let first = cl.records.first()?.origin;
@@ -200,7 +203,7 @@ impl<'a> Emitter<'a> {
         self.pecks_told = carry.pecks_told;
     }
 
-    fn records(&mut self, fitted: &[Option<Arc<Fitted>>], passes: &[Option<Arc<super::pass::Chain>>]) {
+    fn records(&mut self, fitted: &[Option<Arc<Fitted>>], passes: &Passes) {
         let cl = self.cl;
         for (index, record) in cl.records.iter().enumerate() {
             self.origin = record.origin;

@@ -56,7 +56,7 @@ impl Lattice {
         let ideal = contact.centre + n * (off / n.dot(&contact.normal).max(0.05));
         let tip = Point3::new(ideal.x, ideal.y, ideal.z - self.tip);
         let base = [tip.x, tip.y, tip.z].map(|c| (c / self.step).round());
-        if base.iter().any(|b| !(b.abs() < 9e15)) {
+        if !base.iter().all(|b| b.abs() < 9e15) {
             return None;
         }
         // |base| is far below 2^63.

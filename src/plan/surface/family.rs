@@ -149,7 +149,7 @@ impl Family {
         const TRIES: u32 = 40;
         for _ in 0..TRIES {
             let length = (to - from).norm();
-            if !(length > 1e-3) {
+            if length.is_nan() || length <= 1e-3 {
                 return None;
             }
             let touches = |p: Point2| drop_ball(&self.tree, self.ball, p.x, p.y, None).is_some();

@@ -54,7 +54,7 @@ pub(super) fn spread(family: &Family, target: Target, curved: bool) -> Result<Sp
         level(&mut needs, curved);
         let columns = transposed(&needs);
         let most = columns.iter().map(|c| c.iter().sum::<f64>()).fold(0.0, f64::max);
-        if !(most <= count(MOST)) {
+        if most.is_nan() || most > count(MOST) {
             return Err(format!("{} asks for more than {MOST} passes", target.name()));
         }
         // The last rounds may only add passes: they end in any case.
@@ -115,7 +115,7 @@ fn moved(lines: &[Line], columns: &[Line], passes: usize) -> Vec<Line> {
 fn shared_out(at: &[f64], needs: &[f64], passes: usize) -> Line {
     let whole: f64 = needs.iter().sum();
     let (first, last) = (at[0], at[at.len() - 1]);
-    if !(whole > 0.0) {
+    if whole.is_nan() || whole <= 0.0 {
         return (0..=passes).map(|j| first + (last - first) * count(j) / count(passes)).collect();
     }
     let (mut i, mut before) = (0, 0.0);

@@ -40,7 +40,7 @@ impl Place {
         match free {
             [true, true] => {
                 let det = h[0] * h[2] - h[1] * h[1];
-                if !(det > 0.0) {
+                if det.is_nan() || det <= 0.0 {
                     return [0.0, 0.0];
                 }
                 [(h[1] * g[1] - h[2] * g[0]) / det, (h[1] * g[0] - h[0] * g[1]) / det]
@@ -84,7 +84,7 @@ fn improve(patch: &Patch, x: Point3, at: &Place, step: [f64; 2], area: &Area) ->
     for _ in 0..12 {
         let uv = area.clamp([at.uv[0] + part * step[0], at.uv[1] + part * step[1]]);
         let moved = (at.jet.u * (uv[0] - at.uv[0]) + at.jet.v * (uv[1] - at.uv[1])).norm();
-        if !(moved > 1e-13) {
+        if moved.is_nan() || moved <= 1e-13 {
             return None;
         }
         let next = Place::new(patch, x, uv);
