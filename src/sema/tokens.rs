@@ -188,7 +188,8 @@ impl Analyser<'_> {
             let binding = binding.clone();
             return as_token(self.bound_value(name, &binding));
         }
-        if vocab::is_word(&upper) { TokenKind::Word(upper) } else { TokenKind::Unknown }
+        // A letter that is a word of other statements is more likely a name.
+        if upper.len() > 1 && vocab::is_word(&upper) { TokenKind::Word(upper) } else { TokenKind::Unknown }
     }
 }
 

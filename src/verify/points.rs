@@ -79,7 +79,8 @@ pub(super) fn block_ends(case: &Case<'_>, lines: &[(u32, u32)]) -> Vec<Finding> 
             Some(BlockKind::Motion(motion)) if last_of_block => {
                 let turn = placed.block.and_then(|b| turns.get(b)).copied().flatten();
                 let set = placed.block.and_then(|b| set.get(b)).copied().unwrap_or(0);
-                wrong_end(case, (motion, set), placed).or_else(|| wrong_turn(turn, placed))
+                let inherited = placed.block.is_some_and(|b| keeps_plane(case, b, motion));
+                wrong_end(case, (motion, set, inherited), placed).or_else(|| wrong_turn(turn, placed))
             }
             Some(BlockKind::Motion(_)) => None,
             Some(BlockKind::Insert(_) | BlockKind::Hole(_)) => None,
@@ -143,7 +144,30 @@ fn axes_set(case: &Case<'_>) -> Vec<u8> {
     case.target.blocks.iter().map(after).collect()
 }
 
-fn wrong_end(case: &Case<'_>, (motion, set): (&Motion, u8), placed: &Placed<'_>) -> Option<Text> {
+/// Where a motion ends, if it has an end of its own.
+fn end_of(motion: &Motion) -> Option<Position> {
+    match motion {
+        Motion::Rapid { to, .. } | Motion::Line { to, .. } | Motion::Arc { to, .. } => Some(*to),
+        Motion::Nurbs { .. } => None,
+    }
+}
+
+/// Whether a block leaves X and Y where the block before it came to.
+fn keeps_plane(case: &Case<'_>, block: usize, motion: &Motion) -> bool {
+    let before = case.target.blocks.iter().take(block).rev().find_map(|b| match &b.kind {
+        BlockKind::Motion(motion) => Some(end_of(motion)),
+        BlockKind::Hole(_) | BlockKind::Insert(_) | BlockKind::ToolChange(_) => Some(None),
+        _ => None,
+    });
+    let here = end_of(motion);
+    before.flatten().zip(here).is_some_and(|(a, b)| (a.x, a.y) == (b.x, b.y))
+}
+
+fn wrong_end(
+    case: &Case<'_>,
+    (motion, set, inherited): (&Motion, u8, bool),
+    placed: &Placed<'_>,
+) -> Option<Text> {
     let (to, rapid) = match motion {
         Motion::Rapid { to, .. } => (*to, true),
         Motion::Line { to, .. } | Motion::Arc { to, .. } => (*to, false),
@@ -169,8 +193,8 @@ fn wrong_end(case: &Case<'_>, (motion, set): (&Motion, u8), placed: &Placed<'_>)
     let plane = meant(0) && meant(1);
     let off = got - wanted;
     // An end that follows from a printed angle lies on the start's circle, the one wanted on the grid: they are less than a
-    // step apart, as a wrong last digit would not be.
-    let share = if matches!(motion, Motion::Arc { .. }) { 0.75 } else { 0.25 };
+    // step apart, as a wrong last digit would not be. Blocks that do not move in the plane stay there.
+    let share = if inherited || matches!(motion, Motion::Arc { .. }) { 0.75 } else { 0.25 };
     let near = share * case.target.capabilities.grid.linear_step() + ACCURACY;
     let wrong = plane && !(off.xy().norm() <= near) || meant(2) && !(off.z.abs() <= near);
     wrong.then(|| {
