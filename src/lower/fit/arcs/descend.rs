@@ -1,5 +1,9 @@
 //! Fewer arcs than a chain has: from new starts over the whole stretch, and by taking an arc out of short windows.
 
+use std::sync::{Mutex, PoisonError};
+
+use rayon::prelude::*;
+
 use super::chain::{Chain, Goal, Hold, Joint, Member, measure};
 use super::optimise::{Stop, improve};
 use super::search::{
@@ -66,14 +70,12 @@ fn fewer(
     tried: &mut Vec<(usize, f64)>,
 ) -> Option<(Chain, f64)> {
     let n = chain.len();
-    let mut least = f64::INFINITY;
-    for candidate in without_one(chain, stretch, &wish.goal) {
-        let (next, found) = improve(candidate, stretch, &wish.goal, &stop(limit));
-        if found <= limit {
-            return Some((next, found));
-        }
-        least = least.min(found);
-    }
+    let candidates = without_one(chain, stretch, &wish.goal);
+    let shorter = first_within(limit, candidates, |c| improve(c, stretch, &wish.goal, &stop(limit)));
+    let mut least = match shorter {
+        Ok(found) => return Some(found),
+        Err(least) => least,
+    };
     if n > WHOLE || wish.exact {
         return None;
     }
@@ -96,17 +98,33 @@ fn fewer(
 
 /// A chain of `count` arcs from one of several starts, or the least deviation from the middle of the band found.
 fn anew(stretch: &Stretch<'_>, wish: &Wish, limit: f64, count: usize) -> Result<(Chain, f64), f64> {
-    let mut least = f64::INFINITY;
     let density = stretch.density(WINDOWS * count);
-    for phase in PHASES {
+    first_within(limit, PHASES.to_vec(), |phase| {
         let start = with_ends(spread(stretch, &density, count, phase, wish.goal.band.middle), wish);
-        let (next, found) = settle(start, stretch, &wish.goal, limit);
-        if found <= limit {
-            return Ok((next, found));
+        settle(start, stretch, &wish.goal, limit)
+    })
+}
+
+/// The first trial, in their order, that keeps the limit, or the least deviation of all; on all threads.
+fn first_within<T: Send>(
+    limit: f64,
+    trials: Vec<T>,
+    run: impl Fn(T) -> (Chain, f64) + Sync,
+) -> Result<(Chain, f64), f64> {
+    let tried = trials.into_par_iter().map(|trial| {
+        let (chain, found) = run(trial);
+        if found <= limit { Ok((chain, found)) } else { Err(found) }
+    });
+    let least = Mutex::new(f64::INFINITY);
+    let kept = tried.find_map_first(|result| match result {
+        Ok(found) => Some(found),
+        Err(found) => {
+            let mut least = least.lock().unwrap_or_else(PoisonError::into_inner);
+            *least = least.min(found);
+            None
         }
-        least = least.min(found);
-    }
-    Err(least)
+    });
+    kept.ok_or_else(|| least.into_inner().unwrap_or_else(PoisonError::into_inner))
 }
 
 /// The chain with an arc taken out, at the places with the most slack.

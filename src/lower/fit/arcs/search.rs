@@ -1,6 +1,6 @@
 //! How many arcs: insert where the band is missed, take away where there is slack, keep the fewest.
 
-use std::rc::Rc;
+use std::sync::Arc;
 
 use super::chain::{Chain, Drawn, Goal, Hold, Joint, Member, arc_measure};
 use super::descend::descend;
@@ -105,7 +105,7 @@ fn cube_unit(goal: &Goal) -> f64 {
     crate::math::cbrt(72.0 * 1.732_050_8 * goal.band.half)
 }
 
-fn density(stretch: &Stretch<'_>, n: usize) -> Rc<Density> {
+fn density(stretch: &Stretch<'_>, n: usize) -> Arc<Density> {
     stretch.density(WINDOWS * n)
 }
 

@@ -1,7 +1,6 @@
 //! A tangent-continuous stretch of the curve, sampled once for all deviations that fitting asks for.
 
-use std::cell::RefCell;
-use std::rc::Rc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use super::start::Density;
 use crate::geom::curve::{Frenet, PlanarCurve};
@@ -60,19 +59,20 @@ pub(in crate::lower::fit) struct Stretch<'a> {
     /// Whether the stretch is the whole of a closed curve without corners.
     pub closed: bool,
     /// Densities of joints that have been asked for.
-    densities: RefCell<Vec<(u32, Rc<Density>)>>,
+    densities: Mutex<Vec<(u32, Arc<Density>)>>,
 }
 
 impl<'a> Stretch<'a> {
     /// Density of joints, smoothed to either side over about a share 1 / `windows` of the length.
-    pub fn density(&self, windows: usize) -> Rc<Density> {
+    pub fn density(&self, windows: usize) -> Arc<Density> {
         // A few windows an octave serve all counts.
         let key = (WINDOWS_PER_OCTAVE * math::ln(windows.max(1) as f64) / core::f64::consts::LN_2).round();
-        let known = self.densities.borrow().iter().find(|(k, _)| *k == key as u32).map(|(_, d)| Rc::clone(d));
+        let densities = || self.densities.lock().unwrap_or_else(PoisonError::into_inner);
+        let known = densities().iter().find(|(k, _)| *k == key as u32).map(|(_, d)| Arc::clone(d));
         known.unwrap_or_else(|| {
             let window = self.length() / math::pow(2.0, key / WINDOWS_PER_OCTAVE);
-            let density = Rc::new(Density::new(self, window));
-            self.densities.borrow_mut().push((key as u32, Rc::clone(&density)));
+            let density = Arc::new(Density::new(self, window));
+            densities().push((key as u32, Arc::clone(&density)));
             density
         })
     }
@@ -213,7 +213,7 @@ fn sample_stretch(
         }
         spans.push(Span { index, samples: (start, samples.len() - 1) });
     }
-    Ok(Stretch { curve, samples, spans, closed, densities: RefCell::default() })
+    Ok(Stretch { curve, samples, spans, closed, densities: Mutex::default() })
 }
 
 /// Adaptive sampling of one smooth span.
