@@ -4,7 +4,7 @@
 //! - A dialect is data: a `*.post.toml` file that inherits from others ([`schema`] is the table of its keys,
 //!   [`load`] resolves it). User files and built-in ones go the same way.
 //! - The writer prints the integers of the target program and nothing else: no number is computed here, and all
-//!   of them are printed by [`number`].
+//!   of them are printed by [`crate::target::number`].
 //! - Motion runs on flat tables ([`pattern`]); start, end, tool change and operations go through templates
 //!   ([`template`]), motion never does.
 //! - User text leaves through [`comment`] and cannot get out of its comment; `INSERT` is verbatim, one line.
