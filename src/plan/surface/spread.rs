@@ -12,7 +12,7 @@ use super::ridge::{Row, Target};
 use crate::math::count;
 
 /// Places along a pass at which distances are measured.
-pub(super) const COLUMNS: usize = 129;
+pub(super) const COLUMNS: usize = 257;
 /// Passes of the first round at least.
 const FIRST: usize = 24;
 /// … and no farther apart than this share of the ball's radius.
