@@ -161,9 +161,8 @@ fn good_programs_are_proven() {
 }
 
 #[test]
-#[ignore = "the spline fit runs back along the curve at the seam by up to 1 mm, which E0803 rightly refuses"]
 fn spline_programs_are_proven() {
-    for post in ["linuxcnc", "fanuc"] {
+    for post in ["linuxcnc", "fanuc", "sinumerik"] {
         for unit in [LengthUnit::Millimetre, LengthUnit::Inch] {
             let proven = proven(post, Interpolation::Nurbs, BAND, unit);
             assert!(proven.certificate().moves.nurbs > 0);
