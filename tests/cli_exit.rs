@@ -2,19 +2,9 @@
 
 mod common;
 
+use common::POINTS;
 use common::scratch::{Scratch, code, run_in, stderr};
 
-const POINTS: &str = "\
-PARTNO points
-T1 = CUTTER/ FLAT, 16, NUMBER, 1
-LOADTL/ T1
-SPINDL/ 1200, CLW
-FEDRAT/ 300
-RAPID
-GOTO/ 0, 0, 5
-GOTO/ 10, 0, 5
-FINI
-";
 /// A post whose words do not say what it means: its programs fail their proof.
 const LIE: &str = "inherits = \"linuxcnc\"\n[spindle]\nclockwise = \"M4\"\ncounter-clockwise = \"M3\"\n";
 

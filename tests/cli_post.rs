@@ -2,21 +2,10 @@
 
 mod common;
 
+use common::POINTS;
 use common::schema;
 use common::scratch::{Scratch, code, stderr};
 use serde_json::Value;
-
-const POINTS: &str = "\
-PARTNO points
-T1 = CUTTER/ FLAT, 16, NUMBER, 1
-LOADTL/ T1
-SPINDL/ 1200, CLW
-FEDRAT/ 300
-RAPID
-GOTO/ 0, 0, 5
-GOTO/ 10, 0, 5
-FINI
-";
 
 fn stdout(output: &std::process::Output) -> String {
     String::from_utf8_lossy(&output.stdout).into_owned()

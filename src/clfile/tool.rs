@@ -198,18 +198,10 @@ impl Reader<'_> {
         let tool = match known.map(|(handle, _)| handle) {
             Some(tool) => tool,
             None => self.tools.push(Tool {
-                name,
                 kind,
-                diameter: d,
                 corner: r,
                 profile: [e, f, a, b, h],
-                number: load.number,
-                flutes: None,
-                helix: None,
-                length: None,
-                stick_out: None,
-                material: None,
-                origin,
+                ..Tool::flat(name, d, load.number, origin)
             }),
         };
         if self.state.loaded != Some(tool) {

@@ -6,12 +6,12 @@ use rayon::prelude::*;
 
 use super::fit::{self, Fit, FitError, Tube};
 use super::path;
+use crate::arena::Handle;
 use crate::cl::{Cl, Contour, Lead, Record, RecordKind};
 use crate::diag::{Code, Diagnostic, Sink, codes};
 use crate::geom::Side;
 use crate::geom::curve::Shape;
-use crate::ir::at_origin;
-use crate::ir::{Band, Interpolation};
+use crate::ir::{Band, Interpolation, Origin, at_origin};
 use crate::target::{Capabilities, NurbsForm};
 
 /// A contour's fit.
@@ -57,7 +57,13 @@ pub fn fit_all(cl: &Cl, capabilities: &Capabilities, sink: &mut Sink) -> Vec<Opt
                 tell(cl, &cl.records[*record], demotions, fit, &mut told, sink);
             }
             Some(Err(error)) if leaders[i] == i => {
-                sink.push(cannot_fit(cl, &cl.records[*record], contour, error, capabilities));
+                sink.push(cannot_fit(
+                    cl,
+                    cl.records[*record].origin,
+                    contour.band,
+                    error.to_string(),
+                    capabilities,
+                ));
             }
             _ => {}
         }
@@ -98,15 +104,15 @@ fn tell(
     }
 }
 
-fn cannot_fit(
+/// That a path cannot be had in its band on the control's grid.
+pub(super) fn cannot_fit(
     cl: &Cl,
-    record: &Record,
-    contour: &Contour,
-    error: &FitError,
+    origin: Handle<Origin>,
+    Band { into, out }: Band,
+    message: String,
     capabilities: &Capabilities,
 ) -> Diagnostic {
-    let Band { into, out } = contour.band;
-    at_origin(&codes::lowering::CANNOT_FIT, &cl.origins, record.origin, error.to_string())
+    at_origin(&codes::lowering::CANNOT_FIT, &cl.origins, origin, message)
         .note(format!(
             "the band is INTOL {into} mm, OUTTOL {out} mm; {} takes {} decimals in {}",
             capabilities.name,

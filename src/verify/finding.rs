@@ -4,6 +4,7 @@ use crate::arena::Handle;
 use crate::cl::Cl;
 use crate::diag::codes::verification as codes;
 use crate::diag::{Code, Diagnostic, Sink};
+use crate::geom::Point3;
 use crate::ir::Origin;
 use crate::readback::Trace;
 use crate::target::TargetProgram;
@@ -53,6 +54,10 @@ impl Text {
     /// A point in mm.
     pub(super) fn point(self, x: f64, y: f64) -> Self {
         self.words("X ").length(x).words(", Y ").length(y)
+    }
+    /// A place in space, mm.
+    pub(super) fn place(self, p: Point3) -> Self {
+        self.point(p.x, p.y).words(", Z ").length(p.z)
     }
 
     fn render(&self, unit: LengthUnit) -> String {

@@ -197,17 +197,7 @@ fn wrong_end(
     let share = if inherited || matches!(motion, Motion::Arc { .. }) { 0.75 } else { 0.25 };
     let near = share * case.target.capabilities.grid.linear_step() + ACCURACY;
     let wrong = plane && !(off.xy().norm() <= near) || meant(2) && !(off.z.abs() <= near);
-    wrong.then(|| {
-        Text::default()
-            .words("the block ends at ")
-            .point(got.x, got.y)
-            .words(", Z ")
-            .length(got.z)
-            .words(" in place of ")
-            .point(wanted.x, wanted.y)
-            .words(", Z ")
-            .length(wanted.z)
-    })
+    wrong.then(|| Text::default().words("the block ends at ").place(got).words(" in place of ").place(wanted))
 }
 
 /// How far every motion block turns the table, radians in the part; `None` without a table, or where it is not known
@@ -346,7 +336,7 @@ pub(super) fn cl_points(case: &Case<'_>, before: Option<Point3>) -> Vec<Finding>
         }
         let block = case.target.blocks.iter().position(|b| b.origin == record.origin);
         let line = case.moves.iter().find(|p| p.block == block).map_or(0, |p| p.line);
-        let text = Text::default().words("the point ").point(point.x, point.y).words(", Z ").length(point.z);
+        let text = Text::default().words("the point ").place(point);
         findings.push(Finding::new(&codes::NOT_FOLLOWED, line, block, text.words(" is not reached")));
     }
     findings

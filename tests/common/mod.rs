@@ -8,6 +8,19 @@ use std::path::{Path, PathBuf};
 
 use partwright::source::{FileError, FileProvider};
 
+/// A program of two points, which every control can do.
+pub const POINTS: &str = "\
+PARTNO points
+T1 = CUTTER/ FLAT, 16, NUMBER, 1
+LOADTL/ T1
+SPINDL/ 1200, CLW
+FEDRAT/ 300
+RAPID
+GOTO/ 0, 0, 5
+GOTO/ 10, 0, 5
+FINI
+";
+
 /// The files of one directory, named relative to it.
 pub struct Directory(pub PathBuf);
 

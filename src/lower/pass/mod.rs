@@ -13,13 +13,13 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
+use super::contour::cannot_fit;
 use super::fit::ribbon;
 use crate::cl::{Cl, Pass, RecordKind};
-use crate::diag::{Sink, codes};
+use crate::diag::Sink;
 use crate::geom::surface::swept::{Question, extremes};
 use crate::geom::surface::{Contact, Foot, Guide, Track};
 use crate::geom::{Point2, Point3};
-use crate::ir::at_origin;
 use crate::target::Capabilities;
 use chart::Chart;
 use vertex::{Lattice, Vertex};
@@ -60,7 +60,7 @@ pub(super) fn fit_all(cl: &Cl, capabilities: &Capabilities, sink: &mut Sink) -> 
                 let span = cl.origins[record.origin].span;
                 if let (RecordKind::Pass(pass), false) = (&record.kind, told.contains(&span)) {
                     told.push(span);
-                    sink.push(cannot_fit(cl, record.origin, pass, trouble, capabilities));
+                    sink.push(no_pass(cl, record.origin, pass, trouble, capabilities));
                 }
                 None
             }
@@ -70,7 +70,7 @@ pub(super) fn fit_all(cl: &Cl, capabilities: &Capabilities, sink: &mut Sink) -> 
     out
 }
 
-fn cannot_fit(
+fn no_pass(
     cl: &Cl,
     origin: crate::arena::Handle<crate::ir::Origin>,
     pass: &Pass,
@@ -84,15 +84,7 @@ fn cannot_fit(
     } else {
         format!("no lines on the grid of the control keep a pass within its tolerance near {place}")
     };
-    let crate::ir::Band { into, out } = pass.band;
-    at_origin(&codes::lowering::CANNOT_FIT, &cl.origins, origin, message)
-        .note(format!(
-            "the band is INTOL {into} mm, OUTTOL {out} mm; {} takes {} decimals in {}",
-            capabilities.name,
-            capabilities.grid.linear_decimals,
-            capabilities.grid.unit.symbol()
-        ))
-        .help("give a larger INTOL or OUTTOL, or use a post with more decimals")
+    cannot_fit(cl, origin, pass.band, message, capabilities)
 }
 
 /// What a pass is fitted with.

@@ -96,9 +96,7 @@ fn too_much(operation: &Operation, cover: &Cover, allowed: f64) -> Finding {
         .words("up to ")
         .length(cover.bound)
         .words(" is left on the surface at ")
-        .point(w.at.x, w.at.y)
-        .words(", Z ")
-        .length(w.at.z)
+        .place(w.at)
         .words(format!("; cusps and OUTTOL of {} allow ", operation.name))
         .length(allowed);
     Finding::new(&codes::SURFACE_LEFT, w.line, w.block, text)
@@ -109,9 +107,7 @@ fn too_high(operation: &Operation, cusp: &Worst, allowed: f64) -> Finding {
         .words("a cusp of ")
         .length(cusp.value)
         .words(" is left at ")
-        .point(cusp.at.x, cusp.at.y)
-        .words(", Z ")
-        .length(cusp.at.z)
+        .place(cusp.at)
         .words(format!("; {} allows ", operation.name))
         .length(allowed);
     Finding::new(&codes::SURFACE_LEFT, cusp.line, cusp.block, text)
