@@ -447,7 +447,7 @@ pub enum Spacing {
     Step(f64),
 }
 
-/// `SURFAC/`.
+/// `SURFAC/`, and `ROUGH/ net, OFFSET`.
 #[derive(Debug, Clone)]
 pub struct Surface {
     /// The user's label.
@@ -472,4 +472,6 @@ pub struct Surface {
     pub clearance: f64,
     /// Top of the blank, mm, if one is declared.
     pub stock_top: Option<f64>,
+    /// `ROUGH`: from the blank, or what an operation before has left of it.
+    pub rough: bool,
 }

@@ -307,7 +307,8 @@ fn surface_text(surface: &Surface) -> String {
         Spacing::Step(s) => format!("step {}", num(s)),
     };
     format!(
-        "surface{} {:?} {} {along} {spacing} {} tool {:?} leave {} intol {} outtol {} clearance {}",
+        "{}{} {:?} {} {along} {spacing} {} tool {:?} leave {} intol {} outtol {} clearance {}",
+        if surface.rough { "rough surface" } else { "surface" },
         named(surface.name.as_ref()),
         surface.net,
         if surface.zigzag { "zigzag" } else { "oneway" },

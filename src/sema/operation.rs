@@ -41,6 +41,7 @@ impl Analyser<'_> {
         }
         if let Some(m) = self.arguments(statement, command) {
             match statement.word {
+                "ROUGH" if m.form == "offset" => self.rough_offset(&m, name),
                 "ROUGH" => self.rough(&m, name),
                 "SURFAC" => self.surfac(&m, name),
                 _ => self.profil(&m, name),

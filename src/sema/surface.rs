@@ -18,6 +18,8 @@ use super::{Analyser, limits};
 
 /// Patches that meet at a smaller angle are smooth enough, degrees.
 const SMOOTH: f64 = 0.01;
+/// Height of the cusps of a roughing pass as a share of what it leaves.
+const ROUGH_CUSP: f64 = 0.2;
 /// Accuracy of the smallest concave radius, mm.
 pub(super) const RADIUS_ACCURACY: f64 = 1e-9;
 
@@ -123,10 +125,6 @@ impl Analyser<'_> {
         let Some(Entity::Net(net)) = m.entity("net") else { return };
         let net = *net;
         let (Some(tool), Some(spacing)) = (tool, spacing) else { return };
-        let stock_top = self.state.stock.map(|s| match self.program.stocks[s].shape {
-            StockShape::Round { .. } => 0.0,
-            StockShape::Block { max, .. } => max.z,
-        });
         let surface = Surface {
             name,
             net,
@@ -138,10 +136,45 @@ impl Analyser<'_> {
             leave: m.number("leave").unwrap_or(self.state.thick),
             band: self.state.band,
             clearance: self.state.clearance,
-            stock_top,
+            stock_top: self.stock_top(),
+            rough: false,
         };
         self.step(StepKind::Surface(surface));
         self.moved();
+    }
+
+    /// `ROUGH/ net, OFFSET, leave …`.
+    pub(super) fn rough_offset(&mut self, m: &Matched, name: Option<String>) {
+        let tool = self.ready("ROUGH", m).and_then(|tool| self.ball(m, tool));
+        let (Some(tool), Some(Entity::Net(net)), Some(leave)) = (tool, m.entity("net"), m.number("leave"))
+        else {
+            return;
+        };
+        let cusp = m.number("cusp").unwrap_or(ROUGH_CUSP * leave);
+        let surface = Surface {
+            name,
+            net: *net,
+            zigzag: m.word("order") != Some("ONEWAY"),
+            along: along(m),
+            spacing: m.number("step").map_or(Spacing::Cusp(cusp), Spacing::Step),
+            avoid: true,
+            tool,
+            leave,
+            band: self.state.band,
+            clearance: self.state.clearance,
+            stock_top: self.stock_top(),
+            rough: true,
+        };
+        self.step(StepKind::Surface(surface));
+        self.moved();
+    }
+
+    /// Top of the blank.
+    fn stock_top(&self) -> Option<f64> {
+        self.state.stock.map(|s| match self.program.stocks[s].shape {
+            StockShape::Round { .. } => 0.0,
+            StockShape::Block { max, .. } => max.z,
+        })
     }
 
     fn spacing(&mut self, m: &Matched) -> Option<Spacing> {

@@ -22,6 +22,7 @@ mod operations;
 mod process;
 mod program;
 pub mod reference;
+mod roughing;
 mod space;
 mod surfaces;
 

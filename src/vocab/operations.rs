@@ -223,7 +223,9 @@ const PROFIL: &[Form] = &[form(
     ],
 )];
 
-const ROUGH: &[Form] = &[form(
+const ROUGH: &[Form] = &[CAM, super::roughing::OFFSET];
+
+const CAM: Form = form(
     "cam",
     "plate cam from round stock",
     &[value("cam", Kind::Entity(&[EntityKind::Cam]), "the cam")],
@@ -259,7 +261,7 @@ const ROUGH: &[Form] = &[form(
         DEPTH,
         CUT,
     ],
-)];
+);
 
 const fn operation(
     word: &'static str,
@@ -289,7 +291,7 @@ pub const ROWS: &[Statement] = &[
     ),
     operation(
         "ROUGH",
-        "clears round stock down to a plate cam",
+        "clears stock down to a plate cam or a net",
         "ROUGH/ C1, STOCK, B1, STEP, 2, LEAVE, 0.3",
         ROUGH,
     ),

@@ -55,30 +55,36 @@ pub const NETS: &[Statement] = &[Statement {
     members: NET_MEMBERS,
 }];
 
+/// How passes follow each other.
+pub(super) const ORDER: Choices = choices(
+    "order",
+    &[
+        word("ZIGZAG", "to and fro, joined along the surface"),
+        word("ONEWAY", "all in the same sense, joined above"),
+    ],
+    "ZIGZAG",
+);
+
+/// Along what passes run.
+pub(super) const ALONG: Choices = choices(
+    "along",
+    &[
+        word("U", "passes along u, at constant v"),
+        word("V", "passes along v, at constant u"),
+        word("X", "passes in planes of constant y"),
+        word("Y", "passes in planes of constant x"),
+        word("ISOCSP", "passes at a constant height of cusps, along u"),
+    ],
+    "U",
+);
+
 const SURFAC: &[Form] = &[form(
     "net",
     "passes of a ball-end cutter over a net",
     &[value("net", Kind::Entity(&[EntityKind::Net]), "the net")],
     &[
-        choices(
-            "order",
-            &[
-                word("ZIGZAG", "to and fro, joined along the surface"),
-                word("ONEWAY", "all in the same sense, joined above"),
-            ],
-            "ZIGZAG",
-        ),
-        choices(
-            "along",
-            &[
-                word("U", "passes along u, at constant v"),
-                word("V", "passes along v, at constant u"),
-                word("X", "passes in planes of constant y"),
-                word("Y", "passes in planes of constant x"),
-                word("ISOCSP", "passes at a constant height of cusps, along u"),
-            ],
-            "U",
-        ),
+        ORDER,
+        ALONG,
         with(
             "cusp",
             &[word("CUSP", "largest height of the cusps between passes")],

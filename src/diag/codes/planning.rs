@@ -128,6 +128,20 @@ pub const NO_ROOM_FOR_LEAD: Code = Code {
     page: include_str!("../../../docs/diagnostics/N0522.md"),
 };
 
+/// one roughing pass takes all of the material.
+pub const ROUGH_MATERIAL: Code = Code {
+    id: "N0523",
+    title: "one roughing pass takes all of the material",
+    page: include_str!("../../../docs/diagnostics/N0523.md"),
+};
+
+/// a roughing pass is deeper than the cutter can take.
+pub const ROUGH_TOO_DEEP: Code = Code {
+    id: "W0532",
+    title: "a roughing pass is deeper than the cutter can take",
+    page: include_str!("../../../docs/diagnostics/W0532.md"),
+};
+
 /// a tapered cutter leaves a sloping wall.
 pub const TAPERED_WALL: Code = Code {
     id: "W0530",
@@ -212,6 +226,8 @@ pub const ALL: &[&Code] = &[
     &ROUGHING_FIGURES,
     &ROUNDED_END,
     &NO_ROOM_FOR_LEAD,
+    &ROUGH_MATERIAL,
+    &ROUGH_TOO_DEEP,
     &TAPERED_WALL,
     &HOLDER_RUBS,
     &NO_BALL,

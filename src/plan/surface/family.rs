@@ -25,6 +25,8 @@ pub(super) struct Family {
     pub tree: Arc<SurfaceTree>,
     /// Radius of the ball with what it leaves, mm.
     pub ball: f64,
+    /// What it leaves, mm.
+    pub leave: f64,
     kind: Kind,
 }
 
@@ -53,7 +55,7 @@ impl Family {
             Along::X => Kind::Line(0, outline(&tree, ball)),
             Along::Y => Kind::Line(1, outline(&tree, ball)),
         };
-        Family { tree, ball, kind }
+        Family { tree, ball, leave: surface.leave, kind }
     }
 
     /// Whether passes lie in planes: their chords do so, too.

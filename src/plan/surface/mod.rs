@@ -5,6 +5,7 @@
 
 mod entry;
 mod family;
+mod material;
 mod ridge;
 mod spread;
 
@@ -28,7 +29,7 @@ const ABOVE: f64 = 2.0;
 
 impl Planner<'_> {
     pub(super) fn surface(&mut self, surface: &Surface, origin: Handle<Origin>) {
-        let name = self.operation_name("SURFAC", surface.name.as_deref());
+        let name = self.operation_name(kind(surface), surface.name.as_deref());
         let ready = self.ready(&name, Some(surface.tool), origin);
         let entity = &self.program.nets[surface.net];
         let radius = self.program.tools[surface.tool].diameter / 2.0;
@@ -39,6 +40,9 @@ impl Planner<'_> {
         let fits = reachable && self.fits(surface, radius, origin);
         if !(fits && clear && ready.is_some()) {
             return;
+        }
+        if surface.rough {
+            self.material(surface, &name, &tree, origin);
         }
         let family = Family::new(surface, Arc::clone(&tree), radius);
         let legs = match family.legs(surface) {
@@ -163,7 +167,7 @@ impl Planner<'_> {
         let guard = Guard { surface: Some(finish), top, bottom, ..Guard::default() };
         let operation = Operation {
             name: name.to_owned(),
-            kind: "SURFAC",
+            kind: kind(surface),
             origin,
             band: surface.band,
             guard,
@@ -211,6 +215,11 @@ impl Planner<'_> {
 struct Heights {
     clearance: f64,
     approach: f64,
+}
+
+/// The statement's word.
+fn kind(surface: &Surface) -> &'static str {
+    if surface.rough { "ROUGH" } else { "SURFAC" }
 }
 
 fn cusp(spacing: Spacing) -> Option<f64> {

@@ -133,7 +133,7 @@ pub(super) fn gap(
                 Target::Step(step) => feet(rows, k).min(CLOSEST * apart) / step,
                 Target::Cusp(h) => {
                     let between = Between { family, rows, ends: (lines.0[k], lines.1[k]), k };
-                    let flat = apart / (2.0 * (h * (2.0 * family.ball - h)).max(0.0).sqrt());
+                    let flat = apart / (2.0 * (h * (2.0 * (family.ball - family.leave) - h)).max(0.0).sqrt());
                     between.ridge(&mut hint).map_or(0.0, |root| (root / (AIM * h).sqrt()).min(CLOSEST * flat))
                 }
             };
@@ -188,8 +188,10 @@ impl Between<'_> {
         let along = place(self.family.along(across)?, self.k);
         let contact = self.family.contact(across, along, hint.as_ref())?;
         *hint = Some(contact);
-        let (q, n, ball) = (contact.foot.point, contact.normal, self.family.ball);
-        let height = |centre: Point3| enters(q - centre, n, ball);
+        let (q, n, leave) = (contact.foot.point, contact.normal, self.family.leave);
+        let radius = self.family.ball - leave;
+        // Cusps stand on what is left.
+        let height = |centre: Point3| enters(q - centre, n, radius) - leave;
         let root = |row: &Row| row.least(self.k, &height).max(0.0).sqrt();
         Some((root(self.rows.0), root(self.rows.1)))
     }

@@ -51,6 +51,21 @@ fn a_smaller_height_of_cusps_takes_more_passes() {
 }
 
 #[test]
+fn one_roughing_pass_leaves_what_it_is_asked_to_leave() {
+    let mut files = MemoryFiles::default();
+    let text = program("U").replace("SURFAC/ N1, U", "ROUGH/ N1, OFFSET, 0.5, CUSP, 0.02");
+    let blank = "B1 = STOCK/ BLOCK, (0, 0, -20), (30, 24, 2)\nLOADTL/";
+    files.0.insert("part.apt".to_owned(), text.replace("LOADTL/", blank));
+    let build = driver::build("part.apt", &files, &Options::default());
+    assert!(!build.has_errors(), "{:#?}", build.diagnostics);
+    let said: Vec<&str> = build.diagnostics.iter().map(|d| d.code.id).collect();
+    assert_eq!(said, ["W0532"], "the blank stands 6.1 mm deep, and the ball has 6 mm");
+    let proof = proof(&build);
+    assert!(proof.leave == 0.5 && proof.into.value <= 1e-6 && proof.out.value <= 0.01 + 1e-6, "{proof:?}");
+    assert!(proof.left_bound <= 0.02 + 0.011, "{proof:?}");
+}
+
+#[test]
 fn a_ball_that_does_not_fit_is_lifted_and_says_what_stays() {
     let mut files = MemoryFiles::default();
     files.0.insert("part.apt".to_owned(), program("U, STEP, 2").replace("BALL, 6", "BALL, 40"));
