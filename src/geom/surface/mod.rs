@@ -4,6 +4,7 @@
 //! normal curvature is positive where the surface is **concave**, that is, curves towards the tool.
 
 pub mod curvature;
+pub mod cutter;
 pub mod drop;
 pub mod interval;
 pub mod net;
@@ -12,6 +13,7 @@ pub mod swept;
 pub mod track;
 pub mod tree;
 
+pub use cutter::Cutter;
 pub use drop::{Contact, drop_ball};
 pub use net::{Net, NetIssue};
 pub use patch::{Patch, SurfaceJet};

@@ -8,6 +8,8 @@
 mod bend;
 mod place;
 mod quest;
+mod rest;
+mod search;
 
 use core::cell::RefCell;
 

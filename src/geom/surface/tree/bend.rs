@@ -2,6 +2,7 @@
 
 use crate::geom::Vec3;
 use crate::geom::surface::interval::Interval;
+use crate::geom::surface::patch::SurfaceJet;
 
 /// What the Hessian of F takes from the derivatives over a rectangle, for any x.
 #[derive(Debug, Clone, Copy)]
@@ -31,6 +32,23 @@ impl Bend {
         };
         let first = [square(ru), mixed, square(rv)].map(|i| (i.lo, i.hi));
         Bend { first, second: [split(ruu), split(ruv), split(rvv)] }
+    }
+
+    /// Bounds of n·r_uu, n·r_uv, n·r_vv over the rectangle.
+    pub(super) fn along(&self, n: Vec3) -> [Interval; 3] {
+        let size = n.abs();
+        self.second.map(|(c, r)| {
+            let (value, spread) = (n.dot(&c), size.dot(&r));
+            let slack = spread + ROUNDING * (size.dot(&c.abs()) + spread);
+            Interval { lo: value - slack, hi: value + slack }
+        })
+    }
+
+    /// How far a rectangle with these half widths spreads about its middle along each axis, mm.
+    pub(super) fn spread(&self, jet: &SurfaceJet, [du, dv]: [f64; 2]) -> Vec3 {
+        let [uu, uv, vv] = self.second.map(|(c, r)| c.abs() + r);
+        let curved = uu * (0.5 * du * du) + uv * (du * dv) + vv * (0.5 * dv * dv);
+        (jet.u.abs() * du + jet.v.abs() * dv + curved) * (1.0 + ROUNDING)
     }
 
     /// The Hessian for all x - r within `half` of `middle`, over the whole rectangle.

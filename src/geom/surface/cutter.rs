@@ -1,0 +1,138 @@
+//! Milling cutters as solids: a convex core, rounded by a ball.
+//!
+//! The core of a ball-end cutter is its axis above the ball's centre; that of a flat or bull-nose cutter a cylinder as
+//! wide as the flat, that of a tapered one a cone. All are solids of revolution about +z, endless upwards, that stand on
+//! a disc. The *reference point* is that disc's middle: the centre of a ball, the tip of a flat cutter.
+//!
+//! A point q is outside a convex solid C by σ(q) = max over unit n of n·q − h(n), with h the support function of C; below
+//! zero, −σ is how deep it is inside. Every n gives a bound, so that questions about a surface are settled by planes
+//! ([`super::tree`]): no sharp rim is in the way.
+
+use super::drop::{Contact, drop_ball};
+use super::tree::SurfaceTree;
+use crate::geom::{Point3, Vec3};
+use crate::math;
+
+/// A cutter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cutter {
+    /// Radius of the ball that rounds the core, mm.
+    corner: f64,
+    /// Radius of the core's disc, mm.
+    disc: f64,
+    /// Height of the disc above the tip, mm.
+    lift: f64,
+    /// Sine and cosine of the side's angle to the axis.
+    side: [f64; 2],
+}
+
+/// The profile at a distance from the axis, above the reference point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Profile {
+    pub height: f64,
+    /// Outward unit normal: away from the axis, and along it.
+    pub normal: [f64; 2],
+}
+
+/// Points beside the profile by less count as on it, mm.
+const GRAZES: f64 = 1e-12;
+/// Height of the solid, mm: far above any surface.
+const ENDLESS: f64 = 1e5;
+
+impl Cutter {
+    /// A ball-end cutter.
+    #[must_use]
+    pub fn ball(radius: f64) -> Cutter {
+        Cutter { corner: radius, disc: 0.0, lift: radius, side: [0.0, 1.0] }
+    }
+    /// A flat (`corner` 0) or bull-nose cutter.
+    #[must_use]
+    pub fn bull(radius: f64, corner: f64) -> Cutter {
+        let corner = corner.min(radius);
+        Cutter { corner, disc: radius - corner, lift: corner, side: [0.0, 1.0] }
+    }
+    /// A tapered cutter: its side leaves the corner, whose circle's centre is `disc` off the axis and `lift` above the
+    /// tip, under this angle, rad, to the axis, and goes on so.
+    #[must_use]
+    pub fn taper(disc: f64, lift: f64, corner: f64, angle: f64) -> Cutter {
+        let (sin, cos) = math::sin_cos(angle);
+        Cutter { corner, disc, lift, side: [sin, cos] }
+    }
+    /// The same cutter with a hull of `by` mm about it.
+    #[must_use]
+    pub fn grown(&self, by: f64) -> Cutter {
+        Cutter { corner: self.corner + by, ..*self }
+    }
+    /// Radius of the ball that rounds it, mm.
+    #[must_use]
+    pub fn corner(&self) -> f64 {
+        self.corner
+    }
+    /// Height of the reference point above the tip, mm.
+    #[must_use]
+    pub fn lift(&self) -> f64 {
+        self.lift
+    }
+    /// Radius of the core's disc, mm.
+    pub(super) fn disc(&self) -> f64 {
+        self.disc
+    }
+    /// Radius of its end, mm: where the side begins.
+    #[must_use]
+    pub fn radius(&self) -> f64 {
+        self.disc + self.corner * self.side[1]
+    }
+    /// Whether it is a ball-end cutter.
+    #[must_use]
+    pub fn is_ball(&self) -> bool {
+        self.disc == 0.0 && self.side[0] == 0.0
+    }
+
+    /// The highest position over (x, y) at which it touches the surface; the contact's centre is the reference point.
+    /// `None` where it touches nothing. `hint`: the contact at a place near by.
+    #[must_use]
+    pub fn drop(&self, tree: &SurfaceTree, x: f64, y: f64, hint: Option<&Contact>) -> Option<Contact> {
+        if self.is_ball() {
+            return drop_ball(tree, self.corner, x, y, hint);
+        }
+        tree.rest(self, [x, y], hint.map(|c| &c.foot))
+    }
+
+    /// The profile `beside` mm off the axis; `None` outside of it.
+    pub(super) fn profile(&self, beside: f64) -> Option<Profile> {
+        let [sin, cos] = self.side;
+        let (r, off) = (self.corner, beside - self.disc);
+        if off <= 0.0 {
+            return Some(Profile { height: -r, normal: [0.0, -1.0] });
+        }
+        let edge = r * cos;
+        if off <= edge || sin <= 0.0 && off <= edge + GRAZES {
+            let down = (r * r - off * off).max(0.0).sqrt();
+            let normal = if r > 0.0 { [(off / r).min(1.0), -down / r] } else { [0.0, -1.0] };
+            return Some(Profile { height: -down, normal });
+        }
+        let on_side = Profile { height: (off - edge) * cos / sin - r * sin, normal: [cos, -sin] };
+        (sin > 0.0).then_some(on_side)
+    }
+
+    /// Support function of the cutter: largest n·q of its points; `n` is a unit vector.
+    pub(super) fn support(&self, n: Vec3) -> f64 {
+        self.core_support(n) + self.corner
+    }
+
+    /// Support function of the core.
+    pub(super) fn core_support(&self, n: Vec3) -> f64 {
+        let beside = math::hypot(n.x, n.y);
+        let [sin, cos] = self.side;
+        self.disc * beside + (beside * sin + n.z * cos).max(0.0) * ENDLESS
+    }
+
+    /// The reference point of the cutter whose tip is here.
+    #[must_use]
+    pub fn reference(&self, tip: Point3) -> Point3 {
+        Point3::new(tip.x, tip.y, tip.z + self.lift)
+    }
+}
+
+#[cfg(test)]
+mod tests;

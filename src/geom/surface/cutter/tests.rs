@@ -1,0 +1,93 @@
+use super::*;
+use crate::geom::surface::Net;
+
+fn graph(x: [f64; 4], y: [f64; 4], z: [[f64; 4]; 4]) -> SurfaceTree {
+    let poles: Vec<Point3> = (0..16).map(|k| Point3::new(x[k / 4], y[k % 4], z[k / 4][k % 4])).collect();
+    SurfaceTree::new(Net::new(4, 4, &poles, None).expect("a net"), 6.0)
+}
+
+/// A hollow with level edges, on which a flat end may lie.
+fn hollow() -> SurfaceTree {
+    let z = [[0.0; 4], [0.0, -40.0, -35.0, 0.0], [0.0, -30.0, -42.0, 0.0], [0.0; 4]];
+    graph([0.0, 18.0, 36.0, 54.0], [0.0, 15.0, 30.0, 45.0], z)
+}
+
+/// Hills and hollows.
+fn hills() -> SurfaceTree {
+    let z =
+        [[0.0, 9.0, -7.0, 2.0], [8.0, -20.0, 24.0, -6.0], [-7.0, 25.0, -18.0, 10.0], [3.0, -6.0, 9.0, 0.0]];
+    graph([0.0, 17.0, 40.0, 58.0], [0.0, 16.0, 33.0, 50.0], z)
+}
+
+fn cutters() -> [Cutter; 5] {
+    let tapered = |disc, corner| Cutter::taper(disc, corner, corner, 0.12);
+    [
+        Cutter::bull(4.0, 0.0),
+        Cutter::bull(5.0, 1.2),
+        tapered(0.0, 1.5),
+        tapered(2.0, 0.0),
+        Cutter::bull(4.0, 0.0).grown(0.005),
+    ]
+}
+
+/// A grid of points finds rims and edges to a step of it only: by how much the height found is below what the grid asks for, and above.
+fn against_samples(tree: &SurfaceTree, cutter: &Cutter, at: Point3) -> (f64, f64) {
+    let mut best = f64::NEG_INFINITY;
+    for k in 0..=600 * 601 {
+        let [u, v] = [k / 601, k % 601].map(|i| f64::from(i) / 600.0);
+        let q = tree.net().patches()[0].point(u, v);
+        if let Some(p) = cutter.profile(math::hypot(q.x - at.x, q.y - at.y)) {
+            best = best.max(q.z - p.height);
+        }
+    }
+    (best - at.z, at.z - best)
+}
+
+#[test]
+fn cutters_rest_on_the_highest_point_that_holds_them() {
+    for tree in [hollow(), hills()] {
+        for cutter in cutters() {
+            for k in 0..7u32 {
+                let (x, y) = (f64::from(k * 13 % 60) - 1.7, f64::from(k * 29 % 50) - 0.4);
+                let Some(rest) = cutter.drop(&tree, x, y, None) else { continue };
+                let (below, above) = against_samples(&tree, &cutter, rest.centre);
+                assert!(below < 2e-9 && above < 0.25, "{cutter:?} {x} {y}: {below:e} {above:e} {rest:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_ball_rests_where_newton_puts_it() {
+    let (tree, ball) = (hollow(), Cutter::ball(4.0));
+    for k in 0..40u32 {
+        let (x, y) = (f64::from(k * 7 % 54), f64::from(k * 11 % 45));
+        let newton = ball.drop(&tree, x, y, None).expect("a contact").centre.z;
+        let planes = tree.rest(&ball, [x, y], None).expect("a contact").centre.z;
+        assert!((newton - planes).abs() < 2e-9, "{x} {y}: {newton} {planes}");
+    }
+}
+
+#[test]
+fn hints_and_hulls_do_not_change_where_a_cutter_rests() {
+    let tree = hills();
+    for cutter in cutters() {
+        let mut hint = None;
+        for k in 0..30u32 {
+            let (x, y) = (10.0 + f64::from(k) * 0.9, 12.0 + f64::from(k) * 0.7);
+            let plain = cutter.drop(&tree, x, y, None).expect("a contact");
+            let hinted = cutter.drop(&tree, x, y, hint.as_ref()).expect("a contact");
+            let grown = cutter.grown(1e-3).drop(&tree, x, y, None).expect("a contact");
+            assert!((plain.centre.z - hinted.centre.z).abs() < 2e-9, "{cutter:?} {x} {y}");
+            assert!(grown.centre.z >= plain.centre.z + 1e-3 - 2e-9, "{cutter:?} {x} {y}");
+            hint = Some(hinted);
+        }
+    }
+}
+
+#[test]
+fn nothing_holds_a_cutter_beside_the_surface() {
+    for cutter in [Cutter::bull(4.0, 0.0), Cutter::bull(5.0, 1.2)] {
+        assert_eq!(cutter.drop(&hollow(), -5.1, 20.0, None), None);
+    }
+}

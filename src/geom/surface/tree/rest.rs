@@ -1,0 +1,141 @@
+//! Where a cutter rests that is let down on the surface: the highest of the heights at which its points hold it.
+
+use super::search::{Aim, NOTHING, Search, solve};
+use super::{Foot, SurfaceTree};
+use crate::geom::surface::cutter::Cutter;
+use crate::geom::surface::drop::Contact;
+use crate::geom::surface::patch::SurfaceJet;
+use crate::geom::{Point3, Vec3};
+use crate::math;
+
+/// Accuracy of the height, mm.
+const ACCURACY: f64 = 1e-9;
+/// Planes steeper than this (n·z) hold no cutter.
+const UPRIGHT: f64 = 1e-4;
+
+/// A cutter above a place.
+struct Lowering<'a> {
+    cutter: &'a Cutter,
+    at: [f64; 2],
+}
+
+impl Lowering<'_> {
+    fn beside(&self, q: Point3) -> [f64; 2] {
+        [q.x - self.at[0], q.y - self.at[1]]
+    }
+}
+
+impl Aim for Lowering<'_> {
+    fn in_box(&self, low: [f64; 3], high: [f64; 3]) -> f64 {
+        let beyond = |i: usize| (low[i] - self.at[i]).max(self.at[i] - high[i]).max(0.0);
+        let profile = self.cutter.profile(math::hypot(beyond(0), beyond(1)));
+        profile.map_or(f64::NEG_INFINITY, |p| high[2] - p.height)
+    }
+    fn score(&self, q: Point3) -> f64 {
+        let [x, y] = self.beside(q);
+        let beside = math::hypot(x, y);
+        // Beside the cutter, what is nearer is the better.
+        self.cutter.profile(beside).map_or(10.0 * NOTHING - beside, |p| q.z - p.height)
+    }
+    fn facing(&self, q: Point3) -> Option<Vec3> {
+        let [x, y] = self.beside(q);
+        let beside = math::hypot(x, y);
+        let [across, up] = self.cutter.profile(beside)?.normal;
+        let e = if beside > 0.0 { [x / beside, y / beside] } else { [1.0, 0.0] };
+        Some(Vec3::new(-across * e[0], -across * e[1], -up))
+    }
+    fn radial(&self, q: Point3, n: Vec3) -> Option<Vec3> {
+        let [x, y] = self.beside(q);
+        radial([x, y], n)
+    }
+    fn plane(&self, n: Vec3) -> Option<(f64, f64)> {
+        let offset = self.cutter.support(-n) - n.x * self.at[0] - n.y * self.at[1];
+        (n.z > UPRIGHT).then(|| (1.0 / n.z, offset))
+    }
+    fn step(&self, jet: &SurfaceJet) -> Option<[f64; 2]> {
+        self.to_summit(jet).or_else(|| self.to_rim(jet))
+    }
+}
+
+impl Lowering<'_> {
+    /// Towards the highest point under the cutter's flat.
+    fn to_summit(&self, jet: &SurfaceJet) -> Option<[f64; 2]> {
+        let [x, y] = self.beside(jet.p);
+        let flat = self.cutter.disc();
+        let curved = jet.uu.z < 0.0 && jet.uu.z * jet.vv.z > jet.uv.z * jet.uv.z;
+        if !curved || math::hypot(x, y) >= flat {
+            return None;
+        }
+        let step = solve([[jet.uu.z, jet.uv.z], [jet.uv.z, jet.vv.z]], [-jet.u.z, -jet.v.z])?;
+        let after = [x + jet.u.x * step[0] + jet.v.x * step[1], y + jet.u.y * step[0] + jet.v.y * step[1]];
+        (math::hypot(after[0], after[1]) < flat).then_some(step)
+    }
+
+    /// The corner touches where its normal is the surface's: the plan normal points to the axis, and the distance
+    /// from the axis is that of the corner's point.
+    fn to_rim(&self, jet: &SurfaceJet) -> Option<[f64; 2]> {
+        let w = jet.u.cross(&jet.v);
+        let (w, sense) = if w.z < 0.0 { (-w, -1.0) } else { (w, 1.0) };
+        let size = w.norm();
+        let n = w / size;
+        let m = math::hypot(n.x, n.y);
+        let (disc, r) = (self.cutter.disc(), self.cutter.corner());
+        let [x, y] = self.beside(jet.p);
+        let beside = math::hypot(x, y);
+        if size.is_nan() || size <= 0.0 || beside <= 0.0 {
+            return None;
+        }
+        let column = |r_t: Vec3, w_t: Vec3| {
+            let w_t = w_t * sense;
+            let n_t = (w_t - n * n.dot(&w_t)) / size;
+            let m_t = if m > 0.0 { (n.x * n_t.x + n.y * n_t.y) / m } else { 0.0 };
+            let away = (x * r_t.x + y * r_t.y) / beside - r * m_t;
+            [away, w_t.x * y + w.x * r_t.y - w_t.y * x - w.y * r_t.x]
+        };
+        let wu = jet.uu.cross(&jet.v) + jet.u.cross(&jet.uv);
+        let wv = jet.uv.cross(&jet.v) + jet.u.cross(&jet.vv);
+        let off = [beside - disc - r * m, w.x * y - w.y * x];
+        scaled(column(jet.u, wu), column(jet.v, wv), off)
+    }
+}
+
+/// Newton's step for two equations in different units.
+fn scaled(a: [f64; 2], b: [f64; 2], off: [f64; 2]) -> Option<[f64; 2]> {
+    let size = math::hypot(a[1], b[1]);
+    if size.is_nan() || size <= 0.0 {
+        return None;
+    }
+    solve([[a[0], a[1] / size], [b[0], b[1] / size]], [-off[0], -off[1] / size])
+}
+
+/// The unit vector in the plane of z and a horizontal direction that is nearest to `n`; it does not point outwards.
+pub(super) fn radial([x, y]: [f64; 2], n: Vec3) -> Option<Vec3> {
+    let beside = math::hypot(x, y);
+    let e = [x / beside, y / beside];
+    let across = (n.x * e[0] + n.y * e[1]).min(0.0);
+    Vec3::new(across * e[0], across * e[1], n.z).try_normalize(1e-9)
+}
+
+impl SurfaceTree {
+    /// The highest position of a cutter's reference point over a place at which the cutter touches the surface, and where;
+    /// `None` where it touches nothing. `hint`: a foot near by.
+    #[must_use]
+    pub fn rest(&self, cutter: &Cutter, at: [f64; 2], hint: Option<&Foot>) -> Option<Contact> {
+        let aim = Lowering { cutter, at };
+        let mut search = Search::new(self, &aim, ACCURACY);
+        if let Some(foot) = hint {
+            search.start(foot.patch, foot.uv);
+        }
+        search.run();
+        let spot = search.spot.filter(|_| search.best > NOTHING)?;
+        // What was given up could hold the cutter higher: then it is held there.
+        let height = if search.bound() > search.best + ACCURACY { search.bound() } else { search.best };
+        let jet = self.net.patches()[spot.patch].jet(spot.uv[0], spot.uv[1]);
+        let inside = spot.uv.iter().all(|t| *t > 0.0 && *t < 1.0);
+        let facing = || aim.facing(spot.point);
+        let normal = if inside { jet.normal().or_else(facing) } else { facing().or_else(|| jet.normal()) }?;
+        let distance = cutter.corner();
+        let foot = Foot { patch: spot.patch, uv: spot.uv, point: spot.point, distance, certain: distance };
+        Some(Contact { centre: Point3::new(at[0], at[1], height), normal, foot })
+    }
+}

@@ -1,0 +1,313 @@
+//! The best place of a surface for a convex tool: how high it must stand, how near it comes.
+//!
+//! Every plane that touches the tool from outside bounds what a piece of surface can score, by Taylor's formula about
+//! the piece's middle with its leaf's bounds of the second derivatives. The planes tried are parallel to the surface
+//! in the middle of the piece, to the tool where it faces the piece or the best place so far, and to both as far as a sharp
+//! rim lets them. Near the best place they are right to the second order, whether the tool is rounded there or sharp: a
+//! few pieces of every size settle it.
+
+use std::collections::BinaryHeap;
+
+use super::{Area, Kind, Leaf, SurfaceTree};
+use crate::geom::surface::patch::SurfaceJet;
+use crate::geom::{Point3, Vec3};
+
+/// What is wanted of a point.
+pub(super) trait Aim {
+    /// No point of the box scores more.
+    fn in_box(&self, low: [f64; 3], high: [f64; 3]) -> f64;
+    /// What a point scores; below [`NOTHING`] where it does not count.
+    fn score(&self, q: Point3) -> f64;
+    /// The normal, into the tool, of the plane that touches it where it faces a point.
+    fn facing(&self, q: Point3) -> Option<Vec3>;
+    /// The normal in the plane through the tool's axis and a point that is nearest to `n`.
+    fn radial(&self, q: Point3, n: Vec3) -> Option<Vec3>;
+    /// (k, c) such that no point q scores more than k (n·q + c), for a unit vector `n` into the tool.
+    fn plane(&self, n: Vec3) -> Option<(f64, f64)>;
+    /// Newton's step in the patch's parameters towards the best place.
+    fn step(&self, jet: &SurfaceJet) -> Option<[f64; 2]>;
+}
+
+/// Scores below this are no scores.
+pub(super) const NOTHING: f64 = -1e8;
+
+/// The best place.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Spot {
+    pub patch: usize,
+    pub uv: [f64; 2],
+    pub point: Point3,
+}
+
+/// A search.
+pub(super) struct Search<'a, A> {
+    tree: &'a SurfaceTree,
+    aim: &'a A,
+    /// Best score found, and where.
+    pub best: f64,
+    pub spot: Option<Spot>,
+    facing: Option<Vec3>,
+    /// Scores of at most this are of no interest.
+    floor: f64,
+    /// A score above this ends the search.
+    ceiling: f64,
+    accuracy: f64,
+    /// Largest bound of what was given up.
+    open: f64,
+    budget: u32,
+}
+
+/// A part of the surface that is still to be looked at, the most promising first.
+struct Open {
+    bound: f64,
+    part: Part,
+}
+
+enum Part {
+    Node(u32),
+    Piece(u32, Area, u32),
+}
+
+impl PartialEq for Open {
+    fn eq(&self, other: &Open) -> bool {
+        self.bound.total_cmp(&other.bound).is_eq()
+    }
+}
+impl Eq for Open {}
+impl PartialOrd for Open {
+    fn partial_cmp(&self, other: &Open) -> Option<core::cmp::Ordering> {
+        Some(self.cmp(other))
+    }
+}
+impl Ord for Open {
+    fn cmp(&self, other: &Open) -> core::cmp::Ordering {
+        self.bound.total_cmp(&other.bound)
+    }
+}
+
+/// Pieces that one search may cut up.
+const MOST_PIECES: u32 = 20_000;
+/// Newton steps of one attempt.
+const STEPS: u32 = 8;
+/// Depths between attempts to come to the best place by Newton's method.
+const EVERY: u32 = 3;
+/// From this depth on, pieces are bounded by their poles as well.
+const HULL_FROM: u32 = 2;
+/// Pieces are not cut below this size of their parameters.
+const SMALLEST: f64 = 1e-11;
+
+impl<'a, A: Aim> Search<'a, A> {
+    pub(super) fn new(tree: &'a SurfaceTree, aim: &'a A, accuracy: f64) -> Search<'a, A> {
+        Search {
+            tree,
+            aim,
+            best: f64::NEG_INFINITY,
+            spot: None,
+            facing: None,
+            floor: NOTHING,
+            ceiling: f64::INFINITY,
+            accuracy,
+            open: f64::NEG_INFINITY,
+            budget: MOST_PIECES,
+        }
+    }
+    /// No point of the surface scores more than this (the floor, where all score less).
+    pub(super) fn bound(&self) -> f64 {
+        self.best.max(self.floor).max(self.open) + if self.best > self.floor { self.accuracy } else { 0.0 }
+    }
+
+    fn limit(&self) -> f64 {
+        if self.best > self.floor { self.best + self.accuracy } else { self.floor }
+    }
+
+    /// Tries a place from which the best one may be near.
+    pub(super) fn start(&mut self, patch: usize, uv: [f64; 2]) {
+        self.approach(patch, Area::WHOLE.clamp(uv));
+    }
+
+    pub(super) fn run(&mut self) {
+        let mut open = BinaryHeap::from([Open { bound: f64::INFINITY, part: Part::Node(0) }]);
+        while let Some(Open { bound, part }) = open.pop() {
+            if self.best > self.ceiling || bound <= self.limit() {
+                return;
+            }
+            match part {
+                Part::Node(node) => self.node(node, &mut open),
+                Part::Piece(leaf, area, depth) => {
+                    let [du, dv] = area.half();
+                    if self.budget == 0 || du.max(dv) < SMALLEST {
+                        self.open = self.open.max(bound);
+                        return;
+                    }
+                    self.budget -= 1;
+                    area.parts(|area| self.piece(leaf, area, depth + 1, bound, &mut open));
+                }
+            }
+        }
+    }
+
+    fn node(&mut self, node: u32, open: &mut BinaryHeap<Open>) {
+        match self.tree.nodes[node as usize].kind {
+            Kind::Leaf(leaf) => {
+                let area = self.tree.leaves[leaf as usize].area;
+                self.piece(leaf, area, 0, f64::INFINITY, open);
+            }
+            Kind::Branch(first, count) => {
+                for child in first..first + count {
+                    let node = &self.tree.nodes[child as usize];
+                    let bound = self.aim.in_box(node.low, node.high);
+                    if bound > self.limit() {
+                        open.push(Open { bound, part: Part::Node(child) });
+                    }
+                }
+            }
+        }
+    }
+
+    /// Looks at a piece, and keeps it for later if it may hold something better than what is known.
+    fn piece(&mut self, leaf: u32, area: Area, depth: u32, before: f64, open: &mut BinaryHeap<Open>) {
+        let own = &self.tree.leaves[leaf as usize];
+        let Some(bound) = self.bound_of(own, &area, depth) else { return };
+        if depth.is_multiple_of(EVERY) {
+            self.approach(own.patch, area.middle());
+            self.edges(own.patch, &area);
+        }
+        let bound = bound.min(before);
+        if bound > self.limit() {
+            open.push(Open { bound, part: Part::Piece(leaf, area, depth) });
+        }
+    }
+
+    /// The bound of a piece, if it may hold something better than what is known.
+    fn bound_of(&mut self, leaf: &Leaf, area: &Area, depth: u32) -> Option<f64> {
+        let uv = area.middle();
+        let jet = self.tree.net.patches()[leaf.patch].jet(uv[0], uv[1]);
+        self.offer(leaf.patch, uv, jet.p);
+        let limit = self.limit();
+        let half = area.half();
+        let about = leaf.bend.spread(&jet, half);
+        let mut bound = self.aim.in_box((jet.p.coords - about).into(), (jet.p.coords + about).into());
+        if bound <= limit {
+            return None;
+        }
+        let mut planes = [None; 4];
+        for (k, plane) in planes.iter_mut().enumerate() {
+            let normal = match k {
+                0 => self.aim.facing(jet.p),
+                1 => jet.normal(),
+                2 => self.facing,
+                _ => jet.normal().and_then(|n| self.aim.radial(jet.p, n)),
+            };
+            *plane = normal.and_then(|n| Some((n, self.aim.plane(n)?)));
+            let Some((n, (scale, offset))) = *plane else { continue };
+            bound = bound.min(scale * (n.dot(&jet.p.coords) + offset + rise(leaf, &jet, n, half)));
+            if bound <= limit {
+                return None;
+            }
+        }
+        if depth >= HULL_FROM {
+            bound = bound.min(self.hull(leaf.patch, area, &planes));
+        }
+        (bound > limit).then_some(bound)
+    }
+
+    /// The least bound by planes over the poles of a piece: right where the tool lies on a whole line.
+    fn hull(&self, patch: usize, area: &Area, planes: &[Option<(Vec3, (f64, f64))>]) -> f64 {
+        let piece = self.tree.net.patches()[patch].restrict(area.u, area.v);
+        let most = |(n, (scale, offset)): (Vec3, (f64, f64))| {
+            let of = |h: &nalgebra::Vector4<f64>| n.dot(&h.xyz()) / h.w;
+            scale * (piece.homogeneous().iter().map(of).fold(f64::NEG_INFINITY, f64::max) + offset)
+        };
+        planes.iter().flatten().copied().map(most).fold(f64::INFINITY, f64::min)
+    }
+
+    fn offer(&mut self, patch: usize, uv: [f64; 2], point: Point3) {
+        let score = self.aim.score(point);
+        if score > self.best {
+            self.best = score;
+            self.spot = Some(Spot { patch, uv, point });
+            self.facing = self.aim.facing(point);
+        }
+    }
+
+    /// Newton's method from a place.
+    fn approach(&mut self, patch: usize, from: [f64; 2]) {
+        let surface = &self.tree.net.patches()[patch];
+        let mut uv = from;
+        for _ in 0..STEPS {
+            let jet = surface.jet(uv[0], uv[1]);
+            let Some(step) = self.aim.step(&jet) else { return };
+            let next = Area::WHOLE.clamp([uv[0] + step[0], uv[1] + step[1]]);
+            let moved = (next[0] - uv[0]).abs().max((next[1] - uv[1]).abs());
+            if !moved.is_finite() {
+                return;
+            }
+            uv = next;
+            self.offer(patch, uv, surface.point(uv[0], uv[1]));
+            if moved < 1e-12 {
+                return;
+            }
+        }
+    }
+
+    /// The best places on edges of the patch that a piece touches.
+    fn edges(&mut self, patch: usize, area: &Area) {
+        let [u, v] = area.middle();
+        for (t, near) in [(0.0, area.u.0), (1.0, area.u.1)] {
+            if t == near {
+                self.along_edge(patch, area.v, v, &|x| [t, x]);
+            }
+        }
+        for (t, near) in [(0.0, area.v.0), (1.0, area.v.1)] {
+            if t == near {
+                self.along_edge(patch, area.u, u, &|x| [x, t]);
+            }
+        }
+    }
+
+    /// Golden section about a part of an edge.
+    fn along_edge(&mut self, patch: usize, (a, b): (f64, f64), middle: f64, place: &dyn Fn(f64) -> [f64; 2]) {
+        const SHARE: f64 = 0.618_033_988_749_894_9;
+        const ROUNDS: u32 = 48;
+        let surface = &self.tree.net.patches()[patch];
+        let reach = b - a;
+        let (mut a, mut b) = ((middle - reach).max(0.0), (middle + reach).min(1.0));
+        let score = |t: f64| {
+            let [u, v] = place(t);
+            self.aim.score(surface.point(u, v))
+        };
+        let (mut x, mut y) = (b - SHARE * (b - a), a + SHARE * (b - a));
+        let (mut fx, mut fy) = (score(x), score(y));
+        for _ in 0..ROUNDS {
+            if fx > fy {
+                (b, y, fy) = (y, x, fx);
+                x = b - SHARE * (b - a);
+                fx = score(x);
+            } else {
+                (a, x, fx) = (x, y, fy);
+                y = a + SHARE * (b - a);
+                fy = score(y);
+            }
+        }
+        for t in [a, x, y, b] {
+            let [u, v] = place(t);
+            self.offer(patch, [u, v], surface.point(u, v));
+        }
+    }
+}
+
+/// How far a piece with these half widths rises along `n` above its middle at most.
+fn rise(leaf: &Leaf, jet: &SurfaceJet, n: Vec3, [du, dv]: [f64; 2]) -> f64 {
+    let [uu, uv, vv] = leaf.bend.along(n);
+    let linear = n.dot(&jet.u).abs() * du + n.dot(&jet.v).abs() * dv;
+    let curved = 0.5 * (uu.hi.max(0.0) * du * du + vv.hi.max(0.0) * dv * dv) + uv.magnitude() * du * dv;
+    (linear + curved) * (1.0 + 1e-13)
+}
+
+/// Solves a x = b for the 2 x 2 matrix with columns `a`.
+pub(super) fn solve(a: [[f64; 2]; 2], b: [f64; 2]) -> Option<[f64; 2]> {
+    let det = a[0][0] * a[1][1] - a[1][0] * a[0][1];
+    let size = a.iter().flatten().map(|x| x.abs()).fold(0.0, f64::max);
+    (det.abs() > 1e-14 * size * size)
+        .then(|| [(b[0] * a[1][1] - a[1][0] * b[1]) / det, (a[0][0] * b[1] - b[0] * a[0][1]) / det])
+}
