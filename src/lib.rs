@@ -12,6 +12,7 @@
 #![warn(missing_docs)]
 
 pub mod arena;
+pub mod cad;
 pub mod cl;
 pub mod clfile;
 pub mod cli;

@@ -166,6 +166,15 @@ pub trait FileProvider: Sync {
     fn read_cl(&self, path: &str) -> Result<(String, String), FileError> {
         self.read(None, path)
     }
+
+    /// Reads a file of a CAD system, which may be larger than a program; bytes that are not UTF-8 become replacement
+    /// characters.
+    ///
+    /// # Errors
+    /// As [`FileProvider::read`].
+    fn read_cad(&self, from: Option<&str>, path: &str) -> Result<(String, String), FileError> {
+        self.read(from, path)
+    }
 }
 
 /// Files held in memory: for tests, fuzzing and the playground.

@@ -15,6 +15,8 @@ use crate::source::{FileError, FileProvider, decode};
 pub const LARGEST: u64 = 64 * 1024 * 1024;
 /// The largest CL file, bytes; places in it are counted in 32 bits.
 pub const LARGEST_CL: u64 = 4_000_000_000;
+/// The largest file of a CAD system, bytes.
+pub const LARGEST_CAD: u64 = 512 * 1024 * 1024;
 /// The name of standard input on the command line.
 pub const STDIN: &str = "-";
 /// Its name in messages.
@@ -39,6 +41,21 @@ impl Disk {
         Disk { root, names: Mutex::default() }
     }
 
+    /// Name and bytes of a file that `from` names.
+    fn bytes(&self, from: Option<&str>, path: &str, largest: u64) -> Result<(String, Vec<u8>), FileError> {
+        let folder = from.and_then(|f| Path::new(f).parent()).unwrap_or(Path::new(""));
+        let path = folder.join(path);
+        let real = path.canonicalize().map_err(|e| system(&e))?;
+        if from.is_some() && !real.starts_with(&self.root) {
+            return Err(FileError::OutsideRoot);
+        }
+        if real.is_dir() {
+            return Err(FileError::Other("it is a directory".to_owned()));
+        }
+        let file = std::fs::File::open(&real).map_err(|e| system(&e))?;
+        Ok((self.display_name(real, &path), read_limited(file, largest)?))
+    }
+
     fn display_name(&self, real: PathBuf, path: &Path) -> String {
         let mut names = self.names.lock().unwrap_or_else(PoisonError::into_inner);
         names.entry(real).or_insert_with(|| tidy(path)).clone()
@@ -51,18 +68,13 @@ impl FileProvider for Disk {
             let text = decode(read_limited(std::io::stdin().lock(), LARGEST)?)?;
             return Ok((STDIN_NAME.to_owned(), text));
         }
-        let folder = from.and_then(|f| Path::new(f).parent()).unwrap_or(Path::new(""));
-        let path = folder.join(path);
-        let real = path.canonicalize().map_err(|e| system(&e))?;
-        if from.is_some() && !real.starts_with(&self.root) {
-            return Err(FileError::OutsideRoot);
-        }
-        if real.is_dir() {
-            return Err(FileError::Other("it is a directory".to_owned()));
-        }
-        let file = std::fs::File::open(&real).map_err(|e| system(&e))?;
-        let text = decode(read_limited(file, LARGEST)?)?;
-        Ok((self.display_name(real, &path), text))
+        let (name, bytes) = self.bytes(from, path, LARGEST)?;
+        Ok((name, decode(bytes)?))
+    }
+
+    fn read_cad(&self, from: Option<&str>, path: &str) -> Result<(String, String), FileError> {
+        let (name, bytes) = self.bytes(from, path, LARGEST_CAD)?;
+        Ok((name, decode_anyhow(bytes)))
     }
 
     fn read_cl(&self, path: &str) -> Result<(String, String), FileError> {

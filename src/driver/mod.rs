@@ -181,6 +181,12 @@ impl FileProvider for Recorder<'_> {
         self.remember(&name);
         Ok((name, text))
     }
+
+    fn read_cad(&self, from: Option<&str>, path: &str) -> Result<(String, String), FileError> {
+        let (name, text) = self.files.read_cad(from, path)?;
+        self.remember(&name);
+        Ok((name, text))
+    }
 }
 
 impl Recorder<'_> {

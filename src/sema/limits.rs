@@ -22,6 +22,8 @@ pub const ENTITIES: usize = 100_000;
 pub const NAMES: usize = 1_000_000;
 /// Bytes of source text, included files counted.
 pub const SOURCE_BYTES: usize = 64 * 1024 * 1024;
+/// Bytes of CAD files.
+pub const CAD_BYTES: usize = 512 * 1024 * 1024;
 /// Different messages about one program.
 pub const MESSAGES: usize = 500;
 /// Cams: each takes milliseconds.

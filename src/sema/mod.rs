@@ -14,6 +14,7 @@ use crate::units::{Dim, LengthUnit, Quantity};
 mod arguments;
 mod arithmetic;
 mod blocks;
+mod cad;
 mod cam;
 mod circles;
 mod control;
@@ -123,6 +124,7 @@ struct Analyser<'a> {
     /// The `UNITS` statement.
     unit_stated: Option<Span>,
     include: include::Includes,
+    cad: cad::CadFiles,
     card_columns: bool,
     executed: u64,
     ended: Option<End>,
@@ -149,6 +151,7 @@ impl<'a> Analyser<'a> {
             unit_used: None,
             unit_stated: None,
             include,
+            cad: cad::CadFiles::default(),
             card_columns: options.card_columns,
             executed: 0,
             ended: None,

@@ -13,6 +13,7 @@ use crate::units::{Dim, Quantity};
 
 use super::include::unreadable_file;
 use super::matched::{Matched, Typed};
+use super::transform::Transform;
 use super::value::{Entity, Value};
 use super::{Analyser, limits};
 
@@ -35,20 +36,45 @@ struct Poles {
 impl Analyser<'_> {
     /// `N1 = NET/ …`.
     pub(super) fn net(&mut self, m: &Matched, name: &str) -> Option<Value> {
-        let poles = if m.form == "file" { self.net_file(m)? } else { listed(m) };
-        let made = Net::new(poles.rows, poles.columns, &poles.points, poles.weights.as_deref());
-        let net = match made {
-            Ok(net) => net,
-            Err(issue) => {
-                let at = if m.form == "file" { m.span("file") } else { m.word };
-                self.report(unsound(&issue, at));
-                return None;
+        let net = match m.form {
+            "cad" => self.net_cad(m)?,
+            "moved" => self.net_moved(m)?,
+            "file" => {
+                let poles = self.net_file(m)?;
+                self.net_of_poles(&poles, m.span("file"))?
             }
+            _ => self.net_of_poles(&listed(m), m.word)?,
         };
         self.check_joints(&net, m.word);
         let origin = self.origin(self.here);
         let handle = self.program.nets.push(NetEntity { name: name.to_owned(), net, origin });
         Some(Value::Entity(Entity::Net(handle)))
+    }
+
+    fn net_of_poles(&mut self, poles: &Poles, at: Span) -> Option<Net> {
+        let made = Net::new(poles.rows, poles.columns, &poles.points, poles.weights.as_deref());
+        made.map_err(|issue| self.report(unsound(&issue, at))).ok()
+    }
+
+    /// `NET/ N1, TRFORM, M1`.
+    fn net_moved(&mut self, m: &Matched) -> Option<Net> {
+        let (Some(Entity::Net(net)), Some(Entity::Matrix(map))) = (m.entity("net"), m.entity("matrix"))
+        else {
+            return None;
+        };
+        let (net, map) = (*net, map.clone());
+        self.moved_net(net, &map, m.span("matrix"))
+    }
+
+    /// The image of a net; a map that flattens space gives none.
+    fn moved_net(&mut self, net: Handle<NetEntity>, map: &Transform, at: Span) -> Option<Net> {
+        if map.inverse().is_none() {
+            return self
+                .fail_geometry(at, "this matrix flattens space: the image of a net would be no surface");
+        }
+        let image = |p: Point3| Point3::from(map.point([p.x, p.y, p.z]));
+        let moved = self.program.nets[net].net.map(image);
+        moved.map_err(|issue| self.report(unsound(&issue, at))).ok()
     }
 
     /// Warns of the worst joint that is not smooth.

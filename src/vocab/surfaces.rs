@@ -25,6 +25,34 @@ const NET: &[Form] = &[
         &[],
     ),
     form(
+        "cad",
+        "the whole surface of a face of a CAD file, one Bezier patch per span: any degree up to 15, rational or not",
+        &[
+            Item::Word("format", &[word("STEP", "ISO 10303-21: AP203, AP214, AP242")]),
+            value("file", Kind::Text, "file name, relative to this file"),
+        ],
+        &[with(
+            "choice",
+            &[word(
+                "FACE",
+                "which face, counted in the order of the file (in a file without faces, its surfaces count)",
+            )],
+            &[value("face", Kind::Count(1, 1_000_000), "number of the face, from 1")],
+            false,
+            "the only face that lies on a B-spline surface",
+        )],
+    ),
+    form(
+        "moved",
+        "another net, moved by a matrix: its poles are transformed, which is exact",
+        &[
+            value("net", Kind::Entity(&[EntityKind::Net]), "the net"),
+            Item::Word("transform", &[word("TRFORM", "transformed by a matrix")]),
+            value("matrix", Kind::Entity(&[EntityKind::Matrix]), "matrix"),
+        ],
+        &[],
+    ),
+    form(
         "poles",
         "rows, columns and poles, row by row: up to 16 x 16 poles are one patch, (3m+1) x (3n+1) of them m x n \
          bicubic patches",

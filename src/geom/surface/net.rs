@@ -1,4 +1,6 @@
-//! A net of Bezier patches: `(3m+1) × (3n+1)` poles are m × n bicubic patches, other counts one patch.
+//! A net of Bezier patches of one degree (p, q): `(p m + 1) × (q n + 1)` poles are m × n patches.
+//!
+//! Where nothing tells the degree, `(3m+1) × (3n+1)` poles are m × n bicubic patches, other counts one patch.
 
 use super::patch::{MAX_DEGREE, Patch, SurfaceJet};
 use crate::geom::Point3;
@@ -57,32 +59,67 @@ impl Net {
         poles: &[Point3],
         weights: Option<&[f64]>,
     ) -> Result<Net, NetIssue> {
-        let wanted = rows.saturating_mul(columns);
-        if poles.len() != wanted || weights.is_some_and(|w| w.len() != wanted) {
-            let given = weights.map_or(poles.len(), |w| w.len().min(poles.len()));
-            return Err(NetIssue::Count { wanted, given });
-        }
         let cubic = |n: usize| n >= 4 && n % 3 == 1;
         let chain = cubic(rows) && cubic(columns);
         let small = |n: usize| (2..=MAX_DEGREE + 1).contains(&n);
         let single = small(rows) && small(columns);
+        check_counts(rows, columns, poles, weights)?;
         if !chain && !single {
             return Err(NetIssue::Size { rows, columns });
         }
-        let (count_u, count_v) = if chain { ((rows - 1) / 3, (columns - 1) / 3) } else { (1, 1) };
-        let size = if chain { [4, 4] } else { [rows, columns] };
-        let mut patches = Vec::with_capacity(count_u * count_v);
-        for i in 0..count_u {
-            for j in 0..count_v {
-                let pick = |k: usize| (3 * i + k / size[1]) * columns + 3 * j + k % size[1];
-                let own: Vec<Point3> = (0..size[0] * size[1]).map(|k| poles[pick(k)]).collect();
+        let (degree, size) = if chain {
+            ([3, 3], [(rows - 1) / 3, (columns - 1) / 3])
+        } else {
+            ([rows - 1, columns - 1], [1, 1])
+        };
+        Net::chain(degree, size, poles, weights)
+    }
+    /// A net of `size` patches (rows, columns), all of the same degree (p, q): (p rows + 1) × (q columns + 1) poles,
+    /// row by row, and weights.
+    ///
+    /// # Errors
+    /// [`NetIssue`]: sizes, counts, numbers.
+    pub fn chain(
+        degree: [usize; 2],
+        size: [usize; 2],
+        poles: &[Point3],
+        weights: Option<&[f64]>,
+    ) -> Result<Net, NetIssue> {
+        let [p, q] = degree;
+        let length = |degree: usize, patches: usize| degree.saturating_mul(patches).saturating_add(1);
+        let (rows, columns) = (length(p, size[0]), length(q, size[1]));
+        check_counts(rows, columns, poles, weights)?;
+        let usable = |n: usize| (1..=MAX_DEGREE).contains(&n);
+        if !usable(p) || !usable(q) || size.contains(&0) {
+            return Err(NetIssue::Size { rows, columns });
+        }
+        let mut patches = Vec::with_capacity(size[0] * size[1]);
+        for i in 0..size[0] {
+            for j in 0..size[1] {
+                let pick = |k: usize| (p * i + k / (q + 1)) * columns + q * j + k % (q + 1);
+                let own: Vec<Point3> = (0..(p + 1) * (q + 1)).map(|k| poles[pick(k)]).collect();
                 let own_weights: Option<Vec<f64>> =
-                    weights.map(|w| (0..size[0] * size[1]).map(|k| w[pick(k)]).collect());
-                let patch = Patch::new(size[0], size[1], &own, own_weights.as_deref());
+                    weights.map(|w| (0..own.len()).map(|k| w[pick(k)]).collect());
+                let patch = Patch::new(p + 1, q + 1, &own, own_weights.as_deref());
                 patches.push(patch.ok_or(NetIssue::NotFinite)?);
             }
         }
-        Ok(Net { rows: count_u, columns: count_v, patches })
+        Ok(Net { rows: size[0], columns: size[1], patches })
+    }
+    /// The net with every pole moved to its image under an affine map: the image of the surface.
+    ///
+    /// # Errors
+    /// [`NetIssue::NotFinite`] when an image is not finite.
+    pub fn map(&self, image: impl Fn(Point3) -> Point3) -> Result<Net, NetIssue> {
+        let moved = |patch: &Patch| {
+            let [m, n] = patch.degree();
+            let places = || (0..=m).flat_map(|i| (0..=n).map(move |j| (i, j)));
+            let poles: Vec<Point3> = places().map(|(i, j)| image(patch.pole(i, j))).collect();
+            let weights: Vec<f64> = places().map(|(i, j)| patch.weight(i, j)).collect();
+            Patch::new(m + 1, n + 1, &poles, Some(&weights)).ok_or(NetIssue::NotFinite)
+        };
+        let patches = self.patches.iter().map(moved).collect::<Result<_, _>>()?;
+        Ok(Net { rows: self.rows, columns: self.columns, patches })
     }
     /// Patch rows and columns.
     #[must_use]
@@ -160,6 +197,21 @@ impl Net {
         }
         Joint { patch: [i, j], axis, angle: Angle::radians(worst.0), at: worst.1 }
     }
+}
+
+/// Whether there is a pole, and a weight where there are weights, for each place.
+fn check_counts(
+    rows: usize,
+    columns: usize,
+    poles: &[Point3],
+    weights: Option<&[f64]>,
+) -> Result<(), NetIssue> {
+    let wanted = rows.saturating_mul(columns);
+    if poles.len() != wanted || weights.is_some_and(|w| w.len() != wanted) {
+        let given = weights.map_or(poles.len(), |w| w.len().min(poles.len()));
+        return Err(NetIssue::Count { wanted, given });
+    }
+    Ok(())
 }
 
 #[cfg(test)]

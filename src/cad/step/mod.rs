@@ -1,0 +1,13 @@
+//! STEP files (ISO 10303-21): the exchange structure, and the B-spline surfaces of its faces.
+//!
+//! AP203, AP214 and AP242 have the same entities for these.
+
+mod faces;
+mod part21;
+mod splines;
+mod units;
+mod value;
+
+pub use part21::Exchange;
+
+pub(super) use faces::net;
