@@ -19,7 +19,7 @@ use super::net::Net;
 use super::patch::Patch;
 use crate::geom::{Point3, Vec3};
 use bend::Bend;
-use place::descend;
+use place::{descend, settle};
 use quest::Quest;
 
 /// The foot of a point on a surface.
@@ -44,6 +44,8 @@ pub struct SurfaceTree {
     derivatives: Vec<Derivatives>,
     nodes: Vec<Node>,
     leaves: Vec<Leaf>,
+    sure: Vec<(usize, Area)>,
+    reach: f64,
     upright: bool,
 }
 
@@ -53,7 +55,12 @@ struct Node {
     low: [f64; 3],
     high: [f64; 3],
     kind: Kind,
+    /// The piece over which the distance is convex for every point within the tree's reach of the box, as an index
+    /// of `sure`; [`NONE`] where that is not known.
+    sure: u32,
 }
+
+const NONE: u32 = u32::MAX;
 
 #[derive(Debug, Clone, Copy)]
 enum Kind {
@@ -110,6 +117,9 @@ impl Area {
         };
         parts.iter().copied().for_each(&mut take);
     }
+    fn holds(&self, [u, v]: [f64; 2]) -> bool {
+        (self.u.0..=self.u.1).contains(&u) && (self.v.0..=self.v.1).contains(&v)
+    }
     fn clamp(&self, [u, v]: [f64; 2]) -> [f64; 2] {
         [u.clamp(self.u.0, self.u.1), v.clamp(self.v.0, self.v.1)]
     }
@@ -156,7 +166,7 @@ impl Slab {
 const DEEPEST: u32 = 7;
 /// … and at least this.
 const SHALLOWEST: u32 = 3;
-/// Newton steps that move the point by less, mm, end the iteration; the distance errs by its square.
+/// Newton steps that would bring half the square distance down by half the square of this, mm, are not made.
 const SETTLED: f64 = 1e-7;
 /// Pieces of leaves that one question may cut up.
 const MOST_PIECES: u32 = 2_000;
@@ -169,7 +179,8 @@ impl SurfaceTree {
     #[must_use]
     pub fn new(net: Net, reach: f64) -> SurfaceTree {
         let derivatives: Vec<Derivatives> = net.patches().iter().map(Derivatives::new).collect();
-        let mut tree = SurfaceTree { net, derivatives, nodes: Vec::new(), leaves: Vec::new(), upright: true };
+        let (nodes, leaves, sure) = (Vec::new(), Vec::new(), Vec::new());
+        let mut tree = SurfaceTree { net, derivatives, nodes, leaves, sure, reach, upright: true };
         let [rows, columns] = tree.net.size();
         tree.nodes.push(EMPTY);
         let root = tree.block((0, rows), (0, columns), reach);
@@ -238,18 +249,18 @@ impl SurfaceTree {
 
     /// A node over a rectangle of a patch; `piece` is that part of it.
     fn node(&mut self, patch: usize, piece: &Patch, area: Area, depth: u32, reach: f64) -> Node {
-        let boxes = (depth >= SHALLOWEST).then(|| self.derivatives[patch].boxes(area.u, area.v));
-        let hull = hull(piece);
-        let slab = Slab::new(piece);
-        if let Some(derivatives) = boxes {
+        let derivatives = self.derivatives[patch].boxes(area.u, area.v);
+        let (hull, bend) = (hull(piece), Bend::new(&derivatives));
+        let sure = if bend.is_convex_within(&hull, reach) { self.piece(patch, area) } else { NONE };
+        if depth >= SHALLOWEST {
+            let slab = Slab::new(piece);
             let size = 2.0 * slab.radius;
             let fits = convex(&derivatives, &cone(&derivatives, reach, size)) && size < reach.max(1e-3);
             if fits || depth >= DEEPEST {
                 self.upright &= rises(&derivatives);
-                let bend = Bend::new(&derivatives);
                 self.leaves.push(Leaf { patch, area, hull, slab, bend });
                 let kind = Kind::Leaf(index(self.leaves.len() - 1));
-                return Node { low: hull.map(|i| i.lo), high: hull.map(|i| i.hi), kind };
+                return Node { low: hull.map(|i| i.lo), high: hull.map(|i| i.hi), kind, sure };
             }
         }
         let first = self.nodes.len();
@@ -259,7 +270,12 @@ impl SurfaceTree {
             let child = piece.restrict(inside.u, inside.v);
             self.nodes[first + k] = self.node(patch, &child, *part, depth + 1, reach);
         }
-        self.branch(first, 4)
+        Node { sure, ..self.branch(first, 4) }
+    }
+
+    fn piece(&mut self, patch: usize, area: Area) -> u32 {
+        self.sure.push((patch, area));
+        index(self.sure.len() - 1)
     }
 
     /// The foot of `x`: the nearest point of the whole surface. `hint`: a foot of a point near by.
@@ -276,9 +292,8 @@ impl SurfaceTree {
             Some(foot) => (foot.patch, Area::WHOLE.clamp(foot.uv)),
             None => self.guess(x),
         };
-        let first = descend(&self.net.patches()[start.0], x, start.1, &Area::WHOLE);
-        let best = first.foot(start.0);
-        let mut quest = Quest::new(self, x, best, within);
+        let (first, settled) = settle(&self.net.patches()[start.0], x, start.1, &Area::WHOLE);
+        let mut quest = Quest::new(self, x, (first.foot(start.0), settled), within);
         STACK.with_borrow_mut(|stack| quest.run(stack));
         quest.finish()
     }
@@ -286,8 +301,10 @@ impl SurfaceTree {
     /// Whether some point of the surface is nearer to `x` than `distance`; true as well where the search was given up.
     #[must_use]
     pub fn comes_within(&self, x: Point3, hint: &Foot, distance: f64) -> bool {
-        let first = descend(&self.net.patches()[hint.patch], x, Area::WHOLE.clamp(hint.uv), &Area::WHOLE);
-        let mut quest = Quest::new(self, x, first.foot(hint.patch), distance).until(distance);
+        let start = Area::WHOLE.clamp(hint.uv);
+        let (first, settled) = settle(&self.net.patches()[hint.patch], x, start, &Area::WHOLE);
+        let start = (first.foot(hint.patch), settled);
+        let mut quest = Quest::new(self, x, start, distance).until(distance);
         STACK.with_borrow_mut(|stack| quest.run(stack));
         quest.finish().certain < distance
     }
@@ -339,7 +356,8 @@ thread_local! {
     static STACK: RefCell<Vec<(f64, u32)>> = const { RefCell::new(Vec::new()) };
 }
 
-const EMPTY: Node = Node { low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3], kind: Kind::Branch(0, 0) };
+const EMPTY: Node =
+    Node { low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3], kind: Kind::Branch(0, 0), sure: NONE };
 
 #[allow(clippy::cast_possible_truncation)]
 fn index(n: usize) -> u32 {

@@ -3,10 +3,13 @@
 //! [`moves`] proves that no move goes deeper into the surface than `INTOL`, and that passes leave it by no more than
 //! `OUTTOL`; [`cover`] that the swept ball leaves nowhere more than the height of cusps and `OUTTOL` together.
 
+mod capsule;
 mod cover;
+mod field;
 mod moves;
 #[cfg(test)]
 mod tests;
+mod tile;
 
 use super::certificate::{Deviation, SurfaceProof};
 use super::finding::Finding;

@@ -64,6 +64,14 @@ impl Bend {
     }
 }
 
+impl Bend {
+    /// Whether F is convex over the rectangle for every x within `reach` of a box that holds its piece of surface.
+    pub(super) fn is_convex_within(&self, hull: &[Interval; 3], reach: f64) -> bool {
+        let half = Vec3::from(hull.map(|i| (i.hi - i.lo) * (1.0 + ROUNDING) + reach));
+        self.hessian(Vec3::zeros(), half).positive([true, true])
+    }
+}
+
 impl Hessian {
     /// Whether it is certainly positive definite, where only the parameters that are `free` vary.
     pub(super) fn positive(&self, free: [bool; 2]) -> bool {

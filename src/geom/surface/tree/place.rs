@@ -60,26 +60,34 @@ fn free(uv: [f64; 2], g: [f64; 2], area: &Area) -> [bool; 2] {
 
 /// Minimises the distance over a rectangle from `start`; exact where F is convex.
 pub(super) fn descend(patch: &Patch, x: Point3, start: [f64; 2], area: &Area) -> Place {
+    settle(patch, x, start, area).0
+}
+
+/// As [`descend`], with whether a local minimum was reached.
+pub(super) fn settle(patch: &Patch, x: Point3, start: [f64; 2], area: &Area) -> (Place, bool) {
     const STEPS: u32 = 40;
     let mut at = Place::new(patch, x, area.clamp(start));
     for _ in 0..STEPS {
         let g = at.gradient(x);
         let free = free(at.uv, g, area);
         if free == [false, false] {
-            break;
+            return (at, true);
         }
-        let [du, dv] = at.step(x, g, free);
-        let Some((next, moved)) = improve(patch, x, &at, [du, dv], area) else { break };
+        let step = at.step(x, g, free);
+        // Half of this is what F can still fall by, Newton's decrement.
+        let decrement = -(g[0] * step[0] + g[1] * step[1]);
+        if decrement < SETTLED * SETTLED {
+            // A step of nothing is no sign of a minimum where there is no direction to step in.
+            return (at, decrement >= 0.0 && (step != [0.0, 0.0] || g == [0.0, 0.0]));
+        }
+        let Some(next) = improve(patch, x, &at, step, area) else { return (at, false) };
         at = next;
-        if moved < SETTLED {
-            break;
-        }
     }
-    at
+    (at, false)
 }
 
-/// The step, halved until it makes the distance smaller; `None` where it cannot. With the way it moved, mm.
-fn improve(patch: &Patch, x: Point3, at: &Place, step: [f64; 2], area: &Area) -> Option<(Place, f64)> {
+/// The step, halved until it makes the distance smaller; `None` where it cannot.
+fn improve(patch: &Patch, x: Point3, at: &Place, step: [f64; 2], area: &Area) -> Option<Place> {
     let mut part = 1.0;
     for _ in 0..12 {
         let uv = area.clamp([at.uv[0] + part * step[0], at.uv[1] + part * step[1]]);
@@ -88,8 +96,8 @@ fn improve(patch: &Patch, x: Point3, at: &Place, step: [f64; 2], area: &Area) ->
             return None;
         }
         let next = Place::new(patch, x, uv);
-        if next.square <= at.square || moved < SETTLED {
-            return Some((if next.square <= at.square { next } else { *at }, moved));
+        if next.square <= at.square {
+            return Some(next);
         }
         part *= 0.5;
     }

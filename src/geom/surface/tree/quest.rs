@@ -11,6 +11,8 @@ pub(super) struct Quest<'a> {
     tree: &'a SurfaceTree,
     x: Point3,
     best: Foot,
+    /// Whether the best point is a local minimum over the whole of its patch.
+    settled: bool,
     /// What is farther is of no interest.
     limit: f64,
     /// Smallest bound of what was given up.
@@ -26,10 +28,16 @@ pub(super) struct Quest<'a> {
 const FLAT: f64 = 1e-9;
 
 impl<'a> Quest<'a> {
-    /// From a foot that is known; what is farther than `within` is of no interest.
-    pub(super) fn new(tree: &'a SurfaceTree, x: Point3, best: Foot, within: f64) -> Quest<'a> {
+    /// From a foot that is known, with whether it is a local minimum over its whole patch; what is farther than `within`
+    /// is of no interest.
+    pub(super) fn new(
+        tree: &'a SurfaceTree,
+        x: Point3,
+        (best, settled): (Foot, bool),
+        within: f64,
+    ) -> Quest<'a> {
         let limit = best.distance.min(within);
-        Quest { tree, x, best, limit, open: f64::INFINITY, enough: 0.0, budget: MOST_PIECES }
+        Quest { tree, x, best, settled, limit, open: f64::INFINITY, enough: 0.0, budget: MOST_PIECES }
     }
 
     /// Any point that is nearer than this will do.
@@ -44,7 +52,7 @@ impl<'a> Quest<'a> {
 
     pub(super) fn run(&mut self, stack: &mut Vec<(f64, u32)>) {
         stack.clear();
-        stack.push((0.0, 0));
+        stack.push((box_distance(&self.tree.nodes[0], self.x), 0));
         while let Some((bound, next)) = stack.pop() {
             if self.best.distance < self.enough {
                 return;
@@ -53,6 +61,12 @@ impl<'a> Quest<'a> {
                 continue;
             }
             let node = &self.tree.nodes[next as usize];
+            if bound <= self.tree.reach
+                && let Some((patch, area)) = self.tree.sure.get(node.sure as usize)
+            {
+                self.convex_piece(*patch, area);
+                continue;
+            }
             match node.kind {
                 Kind::Leaf(leaf) => self.leaf(&self.tree.leaves[leaf as usize]),
                 Kind::Branch(first, count) => {
@@ -64,6 +78,21 @@ impl<'a> Quest<'a> {
                     }
                 }
             }
+        }
+    }
+
+    /// The least over a rectangle on which F is convex. The best point of all is that, if it lies there: a local minimum
+    /// of a convex function is the global one.
+    fn convex_piece(&mut self, patch: usize, area: &Area) {
+        let own = self.best.patch == patch;
+        if own && self.settled && area.holds(self.best.uv) {
+            return;
+        }
+        let whole = &self.tree.net.patches()[patch];
+        let start = if own { self.best.uv } else { area.middle() };
+        let near = Place::new(whole, self.x, area.clamp(start));
+        if !self.above(&near, area) {
+            self.take(descend(whole, self.x, near.uv, area), patch);
         }
     }
 
@@ -104,6 +133,7 @@ impl<'a> Quest<'a> {
         let foot = place.foot(patch);
         if foot.distance < self.best.distance {
             self.best = foot;
+            self.settled = false;
             self.limit = self.limit.min(foot.distance);
         }
     }

@@ -1,0 +1,64 @@
+//! Moves of the ball as capsules, and what they leave on a point of the surface.
+
+use super::Swept;
+use crate::geom::surface::Patch;
+use crate::geom::{Point3, Vec3};
+
+/// A point of the surface with its normal.
+#[derive(Clone, Copy)]
+pub(super) struct Corner {
+    pub p: Point3,
+    pub n: Vec3,
+    pub uv: [f64; 2],
+}
+
+/// A move's axis: start, unit direction, length; and its end.
+#[derive(Clone, Copy)]
+pub(super) struct Capsule {
+    pub from: Point3,
+    pub to: Point3,
+    pub along: Vec3,
+    pub length: f64,
+}
+
+impl Corner {
+    pub(super) fn new(patch: &Patch, u: f64, v: f64) -> Option<Corner> {
+        let jet = patch.jet(u, v);
+        jet.normal().map(|n| Corner { p: jet.p, n, uv: [u, v] })
+    }
+}
+
+impl Capsule {
+    pub(super) fn new(swept: &Swept) -> Capsule {
+        let way = swept.to - swept.from;
+        let length = way.norm();
+        let along = if length > 0.0 { way / length } else { Vec3::zeros() };
+        Capsule { from: swept.from, to: swept.to, along, length }
+    }
+
+    /// The height at which the ray along the normal enters the capsule.
+    pub(super) fn height(&self, at: &Corner, radius: f64) -> f64 {
+        let (offset, a) = (at.p - self.from, self.along);
+        if self.length > 0.0 {
+            let (oa, na) = (offset.dot(&a), at.n.dot(&a));
+            let (o, n) = (offset - a * oa, at.n - a * na);
+            if let Some(t) = enters(o, n, radius) {
+                if (0.0..=self.length).contains(&(oa + na * t)) {
+                    return t;
+                }
+            }
+        }
+        let end = |p: Point3| enters(at.p - p, at.n, radius).unwrap_or(f64::INFINITY);
+        end(self.from).min(end(self.to))
+    }
+}
+
+/// The first parameter at which o + t n comes within `radius` of the origin; `None` where it never does.
+fn enters(o: Vec3, n: Vec3, radius: f64) -> Option<f64> {
+    let (a, b, c) = (n.norm_squared(), o.dot(&n), o.norm_squared() - radius * radius);
+    let root = b * b - a * c;
+    if a < 1e-12 || root < 0.0 {
+        return None;
+    }
+    Some((-b - root.sqrt()) / a)
+}
