@@ -1,7 +1,7 @@
 //! Moves of the ball as capsules, and what they leave on a point of the surface.
 
 use super::Swept;
-use crate::geom::surface::Patch;
+use crate::geom::surface::{Patch, SurfaceTree};
 use crate::geom::{Point3, Vec3};
 
 /// A point of the surface with its normal.
@@ -19,7 +19,12 @@ pub(super) struct Capsule {
     pub to: Point3,
     pub along: Vec3,
     pub length: f64,
+    /// Roughly how far the ball is off the surface, at equal distances along the move, mm.
+    pub off: [f64; PLACES],
 }
+
+/// Places on a move at which it is told how far the ball is off the surface.
+pub(super) const PLACES: usize = 9;
 
 impl Corner {
     pub(super) fn new(patch: &Patch, u: f64, v: f64) -> Option<Corner> {
@@ -33,7 +38,7 @@ impl Capsule {
         let way = swept.to - swept.from;
         let length = way.norm();
         let along = if length > 0.0 { way / length } else { Vec3::zeros() };
-        Capsule { from: swept.from, to: swept.to, along, length }
+        Capsule { from: swept.from, to: swept.to, along, length, off: [0.0; PLACES] }
     }
 
     /// The height at which the ray along the normal enters the capsule.
@@ -50,6 +55,31 @@ impl Capsule {
         }
         let end = |p: Point3| enters(at.p - p, at.n, radius).unwrap_or(f64::INFINITY);
         end(self.from).min(end(self.to))
+    }
+}
+
+impl Capsule {
+    /// Looks how far the ball is off the surface.
+    pub(super) fn measure(&mut self, tree: &SurfaceTree, ball: f64) {
+        let mut foot = tree.nearest(self.from, None);
+        for (k, off) in self.off.iter_mut().enumerate() {
+            let share = crate::math::count(k) / crate::math::count(PLACES - 1);
+            foot = tree.nearby(self.from + (self.to - self.from) * share, &foot);
+            *off = (foot.distance - ball).max(0.0);
+        }
+    }
+
+    /// Roughly how far the ball is off the surface where it passes nearest to a point.
+    pub(super) fn off_at(&self, p: Point3) -> f64 {
+        if self.length <= 0.0 {
+            return self.off[0];
+        }
+        let share = ((p - self.from).dot(&self.along) / self.length).clamp(0.0, 1.0);
+        let x = share * crate::math::count(PLACES - 1);
+        // x lies in 0..=PLACES - 1.
+        let i = (x.floor() as usize).min(PLACES - 2);
+        let f = x - crate::math::count(i);
+        self.off[i] * (1.0 - f) + self.off[i + 1] * f
     }
 }
 

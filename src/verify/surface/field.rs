@@ -1,5 +1,7 @@
 //! The moves of an operation by place, and what they leave at a point of the surface.
 
+use rayon::prelude::*;
+
 use super::Swept;
 use super::capsule::{Capsule, Corner};
 use super::moves::Worst;
@@ -79,6 +81,10 @@ impl<'a> Field<'a> {
             buckets: vec![Vec::new(); counts[0] * counts[1]],
         };
         field.look_around(allowed, bulge);
+        if field.cusps {
+            let (tree, ball) = (field.tree, field.ball);
+            field.capsules.par_iter_mut().for_each(|c| c.measure(tree, ball));
+        }
         for (i, swept) in passes.iter().enumerate() {
             let range = |k: usize| (swept.from[k].min(swept.to[k]), swept.from[k].max(swept.to[k]));
             let (x, y) = (field.index(0, range(0)), field.index(1, range(1)));

@@ -6,6 +6,9 @@ use super::moves::Worst;
 use crate::geom::Vec3;
 use crate::geom::surface::{Foot, Patch};
 
+/// Deviations of the path between the places where they are known differ by so much of what is allowed from those of a
+/// straight line.
+const ABOUT: f64 = 0.03;
 /// Cells of one tile at most.
 const MOST_CELLS: u32 = 400_000;
 /// Cells are not cut below this size, mm.
@@ -204,7 +207,7 @@ impl Tile<'_> {
     fn note(&mut self, at: &Corner, height: f64, by: u32, near: &[u32]) {
         let field = self.field;
         let value = height.min(field.ceiling);
-        let cusp = field.cusps && value > self.cusp.value;
+        let cusp = field.cusps && value > self.cusp.value && self.cusp_about(at, near) > self.cusp.value;
         if value <= self.left.value.max(field.floor) && !cusp {
             return;
         }
@@ -219,6 +222,16 @@ impl Tile<'_> {
         if cusp {
             self.cusp.take(worst(self.cusp_at(at, near)));
         }
+    }
+
+    /// No less than what would be left at a point if the path had no deviation of its own, but for rare places.
+    fn cusp_about(&self, at: &Corner, near: &[u32]) -> f64 {
+        let one = |i: &u32| {
+            let height = self.field.height(*i, at);
+            let off = self.field.capsules.get(*i as usize).map_or(0.0, |c| c.off_at(at.p + at.n * height));
+            if height.is_finite() { height - off } else { f64::INFINITY }
+        };
+        near.iter().map(one).fold(f64::INFINITY, f64::min) + ABOUT * self.field.out
     }
 
     /// What would be left at a point if the path had no deviation of its own.
