@@ -207,6 +207,35 @@ fn pictures_are_drawn_in_the_form_of_their_name() {
 }
 
 #[test]
+fn nets_are_exported_as_step_and_stl() {
+    let scratch = Scratch::new("export");
+    let net = "NET/ 2, 2, (0, 0, 0), (0, 40, 3), (60, 0, 2), (60, 40, 0)";
+    scratch.write("one.apt", format!("UNITS/ MM\nN1 = {net}\nFINI\n"));
+    scratch.write("two.apt", format!("UNITS/ MM\nN1 = {net}\nN2 = {net}\nFINI\n"));
+    let output = scratch.run(&["export", "one.apt", "-o", "one.stp"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    assert_eq!(code(&scratch.run(&["export", "two.apt", "--net", "N2", "-o", "two.stl"])), 0);
+    // What was written is a net again, and gives the same file.
+    scratch.write("again.apt", "UNITS/ MM\nN1 = NET/ STEP, 'one.stp'\nFINI\n");
+    assert_eq!(code(&scratch.run(&["export", "again.apt", "-o", "again.stp"])), 0);
+    assert_eq!(scratch.read("again.stp"), scratch.read("one.stp"));
+    let stl = std::fs::read(scratch.0.join("two.stl")).expect("a file");
+    assert_eq!((stl.len() - 84) % 50, 0);
+    let cases: [(&[&str], &str); 5] = [
+        (&["export", "one.apt", "-o", "one.obj"], "E0917"),
+        (&["export", "two.apt", "-o", "two.stp"], "E0918"),
+        (&["export", "one.apt", "--net", "N3", "-o", "one.stp"], "E0918"),
+        (&["export", "one.apt", "-o", "one.stl", "--tolerance", "0"], "E0918"),
+        (&["export", "one.apt", "-o", "one.stl", "--tolerance", "1e-12"], "E0918"),
+    ];
+    for (args, id) in cases {
+        let output = scratch.run(args);
+        assert_eq!(code(&output), 2, "{args:?}: {}", stderr(&output));
+        assert!(stderr(&output).contains(id), "{args:?}: {}", stderr(&output));
+    }
+}
+
+#[test]
 fn a_post_that_writes_what_is_not_meant_exits_4_writes_nothing_and_shows_what_was_lowered() {
     let scratch = Scratch::new("unproven");
     scratch

@@ -146,7 +146,8 @@ const NOT_BY_A_PROGRAM: [(&str, &[&str]); 8] = [
         "the command line, or a file that cannot be read or written: tests/cli*.rs",
         &[
             "E0901", "E0902", "E0903", "E0904", "E0905", "E0906", "E0907", "E0908", "E0909", "E0910",
-            "E0911", "E0912", "E0913", "E0951", "E0952", "E0953", "E0954", "E0955", "E0956",
+            "E0911", "E0912", "E0913", "E0917", "E0918", "E0951", "E0952", "E0953", "E0954", "E0955",
+            "E0956",
         ],
     ),
     ("a faulty post: src/post/tests, tests/cli_post.rs", &["E0751", "E0752", "W0753", "E0754"]),

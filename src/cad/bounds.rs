@@ -14,6 +14,9 @@ const REFINED: u32 = 24;
 /// Points of edges that are compared, at most.
 const MOST: usize = 2000;
 
+/// Bytes of edges that are read for one face, at most.
+const WORK: usize = 64 * 1024 * 1024;
+
 /// The outer boundary of a face.
 #[derive(Debug, Default)]
 pub(super) struct Boundary {
@@ -25,9 +28,17 @@ pub(super) struct Boundary {
     pub holes: bool,
     /// An edge whose points could not be had.
     pub unknown: bool,
+    /// Bytes that have been read for it.
+    pub work: usize,
 }
 
 impl Boundary {
+    /// Whether an edge of so many bytes may still be read; if not, the edges are unknown.
+    pub fn may_read(&mut self, bytes: usize) -> bool {
+        self.work = self.work.saturating_add(bytes);
+        self.unknown |= self.work > WORK;
+        !self.unknown
+    }
     /// What to say of a face of this boundary on the surface of `net`.
     pub fn notice(&self, net: &Net) -> Option<Notice> {
         let near = |p: &Point3, q: &Point3| (p - q).norm() <= NEAR;

@@ -9,7 +9,9 @@ use std::sync::Arc;
 use crate::geom::surface::{Net, NetIssue, SplineIssue, SplineSurface};
 
 mod bounds;
+pub mod iges;
 pub mod step;
+pub mod stl;
 
 /// Faces that one message lists.
 const LISTED: usize = 12;
@@ -19,6 +21,8 @@ const LISTED: usize = 12;
 pub enum Format {
     /// ISO 10303-21.
     Step,
+    /// IGES, in the fixed format.
+    Iges,
 }
 
 impl Format {
@@ -27,6 +31,7 @@ impl Format {
     pub const fn name(self) -> &'static str {
         match self {
             Format::Step => "STEP",
+            Format::Iges => "IGES",
         }
     }
 }
@@ -105,6 +110,8 @@ struct Face {
 pub enum Document {
     /// A STEP file.
     Step(step::Exchange),
+    /// An IGES file.
+    Iges(iges::Drawing),
 }
 
 impl Document {
@@ -115,6 +122,7 @@ impl Document {
     pub fn open(format: Format, text: &Arc<str>) -> Result<Document, Trouble> {
         match format {
             Format::Step => step::Exchange::open(text.clone()).map(Document::Step),
+            Format::Iges => iges::Drawing::open(text.clone()).map(Document::Iges),
         }
     }
 
@@ -126,6 +134,7 @@ impl Document {
     pub fn net(&self, face: Option<usize>) -> Result<Import, Trouble> {
         match self {
             Document::Step(file) => step::net(file, face),
+            Document::Iges(file) => iges::net(file, face),
         }
     }
 }
@@ -231,5 +240,9 @@ fn net_of(surface: &SplineSurface, line: usize) -> Result<Net, Trouble> {
     })
 }
 
+#[cfg(test)]
+mod export_tests;
+#[cfg(test)]
+mod iges_tests;
 #[cfg(test)]
 mod tests;

@@ -55,6 +55,9 @@ pub enum Verb {
     /// Post CL files of a CAM system: as build, and every file is taken for a CL file.
     #[command(after_help = CL_EXAMPLES)]
     Cl(BuildArgs),
+    /// Write a net of a program as a STEP or STL file.
+    #[command(after_help = EXPORT_EXAMPLES)]
+    Export(ExportArgs),
     /// Draw a cam, the cutter's path, or its deviation from the exact curves.
     #[command(after_help = PLOT_EXAMPLES)]
     Plot(PlotArgs),
@@ -88,6 +91,11 @@ Examples:
   partwright cl pocket.cls --post heidenhain
   partwright cl bracket.ncl --post fanuc -D SPINDL=3000     a speed for a file that gives none
   partwright cl part.txt --producer catia --lenient --post sinumerik";
+
+const EXPORT_EXAMPLES: &str = "\
+Examples:
+  partwright export cavity.apt -o cavity.stp        exact, AP214, in mm
+  partwright export two.apt --net N2 -o part.stl --tolerance 0.005";
 
 const PLOT_EXAMPLES: &str = "\
 Examples:
@@ -173,6 +181,26 @@ pub struct ExplainArgs {
     /// A code such as E0401; without one all codes are listed.
     #[arg(value_name = "CODE")]
     pub code: Option<String>,
+}
+
+/// Arguments of `export`.
+#[derive(Debug, Args)]
+pub struct ExportArgs {
+    /// The program file; `-` is standard input.
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+    /// The net, when the program has several.
+    #[arg(long, value_name = "NAME")]
+    pub net: Option<String>,
+    /// The file to write: FILE.stp, FILE.step or FILE.stl.
+    #[arg(short, long, value_name = "FILE")]
+    pub output: PathBuf,
+    /// How far triangles of an STL file may be from the surface, mm.
+    #[arg(long, default_value_t = 0.01, value_name = "MM")]
+    pub tolerance: f64,
+    /// What all verbs that compile take.
+    #[command(flatten)]
+    pub common: CommonArgs,
 }
 
 /// Arguments of `plot`.

@@ -12,6 +12,7 @@ mod deps;
 mod diff;
 pub mod disk;
 mod explain;
+mod export;
 mod messages;
 mod new;
 mod output;
@@ -96,6 +97,7 @@ fn dispatch(cli: &Cli) -> Status {
         Verb::Cl(args) => build::cl(args, messages),
         Verb::Check(args) => build::check(args, messages),
         Verb::Explain(args) => explain::explain(args.code.as_deref()).and_then(|page| print(&page)),
+        Verb::Export(args) => export::export(args, messages),
         Verb::Plot(args) => plot::plot(args, messages),
         Verb::Test(args) => test::test(args, messages),
         Verb::Diff(args) => diff::diff(args, messages),

@@ -261,3 +261,6 @@ pub fn unreadable(path: &str, error: &FileError) -> Diagnostic {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

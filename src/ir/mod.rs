@@ -95,6 +95,8 @@ pub struct NetEntity {
     pub name: String,
     /// The surface.
     pub net: Net,
+    /// Whether the program declares it; otherwise it is the image of one that does, under `TRACUT`.
+    pub declared: bool,
     /// Where it was declared.
     pub origin: Handle<Origin>,
 }

@@ -34,7 +34,7 @@ pub(super) struct CadFiles {
 impl Analyser<'_> {
     /// `NET/ STEP, 'part.stp', FACE, 3`.
     pub(super) fn net_cad(&mut self, m: &Matched) -> Option<Net> {
-        let format = Format::Step;
+        let format = if m.word("format") == Some("IGES") { Format::Iges } else { Format::Step };
         let path = m.text("file")?.to_owned();
         let at = m.span("file");
         let opened = self.open_cad(format, &path, at)?;

@@ -125,6 +125,8 @@ struct Analyser<'a> {
     unit_stated: Option<Span>,
     include: include::Includes,
     cad: cad::CadFiles,
+    /// Nets under `TRACUT`, that each is made once: the net, the map, the image.
+    images: Vec<(Handle<ir::NetEntity>, transform::Transform, Handle<ir::NetEntity>)>,
     card_columns: bool,
     executed: u64,
     ended: Option<End>,
@@ -152,6 +154,7 @@ impl<'a> Analyser<'a> {
             unit_stated: None,
             include,
             cad: cad::CadFiles::default(),
+            images: Vec::new(),
             card_columns: options.card_columns,
             executed: 0,
             ended: None,

@@ -30,16 +30,8 @@ impl Analyser<'_> {
         let label = command.label.as_ref().map(|t| &t.name);
         let free = label.is_none_or(|name| self.may_declare(name));
         let name = label.map(|n| n.text.clone());
-        let transformed = self.state.transform.as_ref().map(|(_, at)| *at);
-        if let Some(at) = transformed {
-            let message = format!("{} cannot be carried out under TRACUT yet", statement.word);
-            self.report(
-                Diagnostic::new(&codes::NOT_YET, command.word.span, message)
-                    .label(at, "the transformation begins here")
-                    .help("write `TRACUT/ NOMORE` before it"),
-            );
-        }
-        if let Some(m) = self.arguments(statement, command) {
+        let m = self.arguments(statement, command);
+        if let Some(m) = m.and_then(|m| self.tracut_arguments(statement, m)) {
             match statement.word {
                 "ROUGH" if m.form == "offset" => self.rough_offset(&m, name),
                 "ROUGH" => self.rough(&m, name),
@@ -52,6 +44,27 @@ impl Analyser<'_> {
             self.scope.set(label.upper(), Binding { kind, declared: label.span });
         }
         self.here = span;
+    }
+
+    /// The arguments under `TRACUT`: nets are replaced by their images; curves of the plane and cams cannot be yet.
+    fn tracut_arguments(&mut self, statement: &Statement, mut m: Matched) -> Option<Matched> {
+        let Some(at) = self.state.transform.as_ref().map(|(_, at)| *at) else { return Some(m) };
+        if !m.found.iter().any(|f| matches!(f.typed, Typed::Entity(Entity::Net(_)))) {
+            let message =
+                format!("{} of curves and cams cannot be carried out under TRACUT yet", statement.word);
+            self.report(
+                Diagnostic::new(&codes::NOT_YET, m.word, message)
+                    .label(at, "the transformation begins here")
+                    .help("write `TRACUT/ NOMORE` before it"),
+            );
+            return None;
+        }
+        for found in &mut m.found {
+            if let Typed::Entity(Entity::Net(net)) = &mut found.typed {
+                *net = self.under_tracut(*net)?;
+            }
+        }
+        Some(m)
     }
 
     /// The loaded cutter, after a check of all that a cut needs.

@@ -47,7 +47,7 @@ impl Analyser<'_> {
         };
         self.check_joints(&net, m.word);
         let origin = self.origin(self.here);
-        let handle = self.program.nets.push(NetEntity { name: name.to_owned(), net, origin });
+        let handle = self.program.nets.push(NetEntity { name: name.to_owned(), net, declared: true, origin });
         Some(Value::Entity(Entity::Net(handle)))
     }
 
@@ -75,6 +75,19 @@ impl Analyser<'_> {
         let image = |p: Point3| Point3::from(map.point([p.x, p.y, p.z]));
         let moved = self.program.nets[net].net.map(image);
         moved.map_err(|issue| self.report(unsound(&issue, at))).ok()
+    }
+
+    /// A net as `TRACUT` has it: its exact image.
+    pub(super) fn under_tracut(&mut self, net: Handle<NetEntity>) -> Option<Handle<NetEntity>> {
+        let Some((map, at)) = self.state.transform.clone() else { return Some(net) };
+        if let Some((_, _, image)) = self.images.iter().find(|(n, m, _)| *n == net && *m == *map) {
+            return Some(*image);
+        }
+        let moved = self.moved_net(net, &map, at)?;
+        let (name, origin) = (self.program.nets[net].name.clone(), self.program.nets[net].origin);
+        let image = self.program.nets.push(NetEntity { name, net: moved, declared: false, origin });
+        self.images.push((net, *map, image));
+        Some(image)
     }
 
     /// Warns of the worst joint that is not smooth.

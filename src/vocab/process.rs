@@ -267,7 +267,7 @@ const CLEARP: &[Form] = &[
 const TRACUT: &[Form] = &[
     form(
         "matrix",
-        "from here on, points of motion are transformed",
+        "from here on, points of motion and nets that are finished are transformed",
         &[value("matrix", Kind::Entity(&[EntityKind::Matrix]), "matrix")],
         &[],
     ),
@@ -379,7 +379,12 @@ pub const ROWS: &[Statement] = &[
     row("OUTTOL", "how much may be left on the part", "OUTTOL/ 0.01", OUTTOL),
     row("TOLER", "sets OUTTOL to the value and INTOL to 0", "TOLER/ 0.01", TOLER),
     row("THICK", "stock to leave on later contours", "THICK/ 0.3", THICK),
-    row("TRACUT", "transforms the points of FROM, GOTO and GODLTA", "TRACUT/ M1", TRACUT),
+    row(
+        "TRACUT",
+        "transforms the points of FROM, GOTO and GODLTA, and the nets of SURFAC",
+        "TRACUT/ M1",
+        TRACUT,
+    ),
     row("CUSP", "largest height of the cusps between the passes of later finishing", "CUSP/ 0.01", CUSP),
     row("CLEARP", "clearance plane for travel between cuts", "CLEARP/ 5", CLEARP),
     row(

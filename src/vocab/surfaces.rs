@@ -28,7 +28,13 @@ const NET: &[Form] = &[
         "cad",
         "the whole surface of a face of a CAD file, one Bezier patch per span: any degree up to 15, rational or not",
         &[
-            Item::Word("format", &[word("STEP", "ISO 10303-21: AP203, AP214, AP242")]),
+            Item::Word(
+                "format",
+                &[
+                    word("STEP", "ISO 10303-21: AP203, AP214, AP242"),
+                    word("IGES", "IGES in the fixed format: entity 128"),
+                ],
+            ),
             value("file", Kind::Text, "file name, relative to this file"),
         ],
         &[with(

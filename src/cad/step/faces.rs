@@ -1,5 +1,7 @@
 //! The faces of a file, and the net of one of them.
 
+use std::collections::BTreeMap;
+
 use crate::geom::Point3;
 use crate::geom::surface::Net;
 
@@ -28,12 +30,7 @@ struct Found {
 pub(in crate::cad) fn net(file: &Exchange, wanted: Option<usize>) -> Result<Import, Trouble> {
     let found = find(file)?;
     let what = if found.iter().any(|f| f.face.is_some()) { "face" } else { "surface" };
-    let mut faces = Vec::with_capacity(found.len());
-    for f in &found {
-        let surface = file.instance(f.surface)?;
-        let is_spline = splines::is_surface(&surface);
-        faces.push(Face { kind: if is_spline { String::new() } else { kind(&surface) }, is_spline });
-    }
+    let faces = classified(file, &found)?;
     let index = choose(&faces, what, wanted)?;
     let Some(found) = found.get(index) else { return Err(file.wrong(0, "face")) };
     let of = found.face.unwrap_or(found.surface);
@@ -53,6 +50,24 @@ pub(in crate::cad) fn net(file: &Exchange, wanted: Option<usize>) -> Result<Impo
     Ok(Import { net, face: index + 1, notices })
 }
 
+/// What lies under the faces; a surface that several share is looked at once.
+fn classified(file: &Exchange, found: &[Found]) -> Result<Vec<Face>, Trouble> {
+    let mut known: BTreeMap<usize, Face> = BTreeMap::new();
+    let mut faces = Vec::with_capacity(found.len());
+    for f in found {
+        if let Some(face) = known.get(&f.surface) {
+            faces.push(face.clone());
+            continue;
+        }
+        let surface = file.instance(f.surface)?;
+        let is_spline = splines::is_surface(&surface);
+        let face = Face { kind: if is_spline { String::new() } else { kind(&surface) }, is_spline };
+        known.insert(f.surface, face.clone());
+        faces.push(face);
+    }
+    Ok(faces)
+}
+
 /// The faces in the order of the file; without any, its B-spline surfaces.
 fn find(file: &Exchange) -> Result<Vec<Found>, Trouble> {
     let mut found = Vec::new();
@@ -60,7 +75,8 @@ fn find(file: &Exchange) -> Result<Vec<Found>, Trouble> {
         let face = file.instance(place)?;
         let surface = face.all().iter().rev().nth(1).and_then(Value::reference);
         let id = surface.ok_or_else(|| file.wrong(place, "surface"))?;
-        found.push(Found { face: Some(place), surface: file.get(id, place)?.0 });
+        let surface = file.place(id).ok_or_else(|| file.dangling(id, place))?;
+        found.push(Found { face: Some(place), surface });
     }
     if !found.is_empty() {
         return Ok(found);
@@ -115,10 +131,16 @@ fn trimmed(file: &Exchange, face: usize, unit: f64, net: &Net) -> Result<Option<
 
 /// Adds the ends of an `ORIENTED_EDGE` and points between them.
 fn edge(file: &Exchange, (id, from): (u64, usize), unit: f64, to: &mut Boundary) -> Result<(), Trouble> {
+    if !to.may_read(file.size(id)) {
+        return Ok(());
+    }
     let (at, oriented) = file.get(id, from)?;
     let Some(id) = oriented.of("ORIENTED_EDGE").and_then(|v| v.get(2)).and_then(Value::reference) else {
         return Err(file.wrong(at, "edge"));
     };
+    if !to.may_read(file.size(id)) {
+        return Ok(());
+    }
     let (at, edge) = file.get(id, at)?;
     let Some([Value::Reference(a), Value::Reference(b), Value::Reference(curve), ..]) = edge.of("EDGE_CURVE")
     else {
@@ -127,7 +149,11 @@ fn edge(file: &Exchange, (id, from): (u64, usize), unit: f64, to: &mut Boundary)
     };
     let ends = [vertex(file, *a, at, unit)?, vertex(file, *b, at, unit)?];
     to.corners.extend(ends);
-    match curve_points(file, (*curve, at), unit, ends)? {
+    let curve = match unwrapped(file, (*curve, at), to)? {
+        Some(place) => curve_points(file, place, unit, ends)?,
+        None => None,
+    };
+    match curve {
         Some(points) => to.inner.extend(points),
         None => to.unknown = true,
     }
@@ -135,35 +161,45 @@ fn edge(file: &Exchange, (id, from): (u64, usize), unit: f64, to: &mut Boundary)
 }
 
 fn vertex(file: &Exchange, id: u64, from: usize, unit: f64) -> Result<Point3, Trouble> {
-    let (at, vertex) = file.get(id, from)?;
+    let (at, vertex) = file.small(id, from)?;
     let point = vertex.of("VERTEX_POINT").and_then(|v| v.first()).and_then(Value::reference);
     splines::point(file, point.ok_or_else(|| file.wrong(at, "point"))?, at, unit)
+}
+
+/// The curve in space inside curves on surfaces; `None` where that is too much to read.
+fn unwrapped(
+    file: &Exchange,
+    (mut id, mut from): (u64, usize),
+    to: &mut Boundary,
+) -> Result<Option<usize>, Trouble> {
+    const WRAPPERS: [&str; 3] = ["SURFACE_CURVE", "SEAM_CURVE", "INTERSECTION_CURVE"];
+    for _ in 0..WRAPPED {
+        if !to.may_read(file.size(id)) {
+            return Ok(None);
+        }
+        let (at, curve) = file.get(id, from)?;
+        if !WRAPPERS.iter().any(|w| curve.is(w)) {
+            return Ok(Some(at));
+        }
+        let inner = curve.all().get(1).and_then(Value::reference);
+        (id, from) = (inner.ok_or_else(|| file.wrong(at, "curve"))?, at);
+    }
+    Ok(None)
 }
 
 /// Points of an edge's curve between its ends; `None` where the curve is of another kind.
 fn curve_points(
     file: &Exchange,
-    (mut id, mut from): (u64, usize),
+    place: usize,
     unit: f64,
     ends: [Point3; 2],
 ) -> Result<Option<Vec<Point3>>, Trouble> {
-    for _ in 0..WRAPPED {
-        let (at, curve) = file.get(id, from)?;
-        let wrapper = ["SURFACE_CURVE", "SEAM_CURVE", "INTERSECTION_CURVE"];
-        if wrapper.iter().any(|w| curve.is(w)) {
-            let inner = curve.all().get(1).and_then(Value::reference);
-            (id, from) = (inner.ok_or_else(|| file.wrong(at, "curve"))?, at);
-            continue;
-        }
-        if curve.is("LINE") {
-            let at = |t: f64| Point3::from(ends[0].coords * (1.0 - t) + ends[1].coords * t);
-            return Ok(Some((1..8).map(|k| at(f64::from(k) / 8.0)).collect()));
-        }
-        let Some(spline) = splines::curve(file, at, unit)? else { return Ok(None) };
-        let Some(points) = spline.samples(INSIDE) else { return Ok(None) };
-        return Ok(Some(between(points, ends)));
+    if file.instance(place)?.is("LINE") {
+        let at = |t: f64| Point3::from(ends[0].coords * (1.0 - t) + ends[1].coords * t);
+        return Ok(Some((1..8).map(|k| at(f64::from(k) / 8.0)).collect()));
     }
-    Ok(None)
+    let spline = splines::curve(file, place, unit)?;
+    Ok(spline.and_then(|s| s.samples(INSIDE)).map(|points| between(points, ends)))
 }
 
 /// The points between those that are nearest to the ends of the edge: the curve may be longer than the edge.

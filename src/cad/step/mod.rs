@@ -7,7 +7,9 @@ mod part21;
 mod splines;
 mod units;
 mod value;
+mod write;
 
 pub use part21::Exchange;
+pub use write::write;
 
 pub(super) use faces::net;

@@ -10,6 +10,8 @@ use super::value::{Instance, Malformed, parse};
 
 /// Instances of a file, at most.
 const LARGEST: usize = 20_000_000;
+/// Bytes of a point, a vertex or a unit, at most.
+const SMALL: usize = 4096;
 
 /// Where an instance stands.
 #[derive(Debug, Clone, Copy)]
@@ -141,11 +143,29 @@ impl Exchange {
 
     /// The instance that is referred to from `from`.
     pub(super) fn get(&self, id: u64, from: usize) -> Result<(usize, Instance<'_>), Trouble> {
-        let Some(place) = self.place(id) else {
-            let message = format!("there is no instance #{id}, to which #{} refers", self.id(from));
-            return Err(Trouble::file(self.line(from), message));
-        };
+        let place = self.place(id).ok_or_else(|| self.dangling(id, from))?;
         Ok((place, self.instance(place)?))
+    }
+
+    /// The same, of an instance that is asked for often and must be short.
+    pub(super) fn small(&self, id: u64, from: usize) -> Result<(usize, Instance<'_>), Trouble> {
+        let place = self.place(id).ok_or_else(|| self.dangling(id, from))?;
+        if self.body(place).len() > SMALL {
+            let message = format!("instance #{id} is longer than {SMALL} bytes");
+            return Err(Trouble::file(self.line(place), message));
+        }
+        Ok((place, self.instance(place)?))
+    }
+
+    /// Bytes of the instance with this id.
+    pub(super) fn size(&self, id: u64) -> usize {
+        self.place(id).map_or(0, |place| self.body(place).len())
+    }
+
+    /// `from` refers to an instance that is not there.
+    pub(super) fn dangling(&self, id: u64, from: usize) -> Trouble {
+        let message = format!("there is no instance #{id}, to which #{} refers", self.id(from));
+        Trouble::file(self.line(from), message)
     }
 
     /// Instance `from` does not have what its type must have.

@@ -9,6 +9,8 @@ use super::value::{Instance, Value};
 
 /// Control points of one surface or curve, at most.
 const MOST_POLES: usize = 250_000;
+/// Control points of an edge's curve, at most: with more it is not looked at.
+const MOST_OF_CURVE: usize = 1000;
 /// Largest degree that is looked at; nets stop far below.
 const HIGHEST: usize = 1000;
 
@@ -88,15 +90,19 @@ fn weight_rows(values: &[Value<'_>]) -> Option<Vec<f64>> {
     Some(rows?.concat())
 }
 
-/// The curve at a place, if it is a B-spline curve.
+/// The curve at a place, if it is a B-spline curve that is not too long.
 pub(super) fn curve(file: &Exchange, place: usize, unit: f64) -> Result<Option<SplineCurve>, Trouble> {
     let instance = file.instance(place)?;
     let Some((name, form)) = spelling(&instance, false) else { return Ok(None) };
+    // A first look, so that nothing long is read point by point.
+    if file.body(place).matches('#').count() > MOST_OF_CURVE {
+        return Ok(None);
+    }
     let wrong = |what: &str| file.wrong(place, what);
     let (base, own) =
         parts(&instance, "B_SPLINE_CURVE", name).ok_or_else(|| wrong("full list of parameters"))?;
     let degree = base.first().and_then(Value::count).filter(|d| *d <= HIGHEST);
-    let ids = base.get(1).and_then(Value::references).filter(|ids| ids.len() <= MOST_POLES);
+    let ids = base.get(1).and_then(Value::references);
     let (Some(degree), Some(ids)) = (degree, ids) else { return Err(wrong("degree and control points")) };
     let poles = points(file, &ids, place, unit)?;
     let knots = knots_of(form, degree, poles.len(), own.first().zip(own.get(1)))
@@ -115,7 +121,7 @@ fn points(file: &Exchange, ids: &[u64], from: usize, unit: f64) -> Result<Vec<Po
 
 /// A `CARTESIAN_POINT` of space.
 pub(super) fn point(file: &Exchange, id: u64, from: usize, unit: f64) -> Result<Point3, Trouble> {
-    let (place, instance) = file.get(id, from)?;
+    let (place, instance) = file.small(id, from)?;
     let coordinates = instance.of("CARTESIAN_POINT").and_then(|v| v.first()).and_then(Value::numbers);
     match coordinates.as_deref() {
         Some([x, y, z]) => Ok(Point3::new(x * unit, y * unit, z * unit)),

@@ -8,6 +8,10 @@ use super::value::{Instance, Value};
 
 /// Conversions of units into other units, at most.
 const DEEPEST: usize = 8;
+/// Contexts in a file, at most.
+const CONTEXTS: usize = 20_000;
+/// Units of one context that are looked at.
+const UNITS: usize = 16;
 /// Different units of length in a file, at most.
 const DIFFERENT: usize = 8;
 
@@ -25,6 +29,10 @@ pub(super) fn length_unit(file: &Exchange, place: usize) -> Result<Option<f64>, 
     for at in 0..file.len() {
         if let Some(unit) = context_unit(file, at)? {
             contexts.push(Context { id: file.id(at), unit });
+            if contexts.len() > CONTEXTS {
+                let message = format!("the file has more than {CONTEXTS} contexts of units");
+                return Err(Trouble::file(file.line(at), message));
+            }
         }
     }
     let mut units: Vec<f64> = contexts.iter().map(|c| c.unit).collect();
@@ -53,7 +61,7 @@ fn context_unit(file: &Exchange, at: usize) -> Result<Option<f64>, Trouble> {
     let instance = file.instance(at)?;
     let values = if instance.is_complex() { instance.of(NAME) } else { Some(instance.all()) };
     let units = values.and_then(|v| v.last()).and_then(Value::references);
-    for id in units.ok_or_else(|| file.wrong(at, "list of units"))? {
+    for id in units.ok_or_else(|| file.wrong(at, "list of units"))?.into_iter().take(UNITS) {
         if let Some(mm) = unit_in_mm(file, id, at, 0)? {
             return Ok(Some(mm));
         }
@@ -63,7 +71,7 @@ fn context_unit(file: &Exchange, at: usize) -> Result<Option<f64>, Trouble> {
 
 /// A unit in mm, if it is one of length.
 fn unit_in_mm(file: &Exchange, id: u64, from: usize, depth: usize) -> Result<Option<f64>, Trouble> {
-    let (place, unit) = file.get(id, from)?;
+    let (place, unit) = file.small(id, from)?;
     if depth > DEEPEST {
         return Err(file.wrong(from, "unit that ends in metres"));
     }
@@ -75,7 +83,7 @@ fn unit_in_mm(file: &Exchange, id: u64, from: usize, depth: usize) -> Result<Opt
         return Ok(None);
     }
     let factor = values.last().and_then(Value::reference).ok_or_else(|| file.wrong(place, "factor"))?;
-    let (at, measure) = file.get(factor, place)?;
+    let (at, measure) = file.small(factor, place)?;
     let [Value::Typed(..) | Value::Number(_), Value::Reference(base)] = measure.all() else {
         return Err(file.wrong(at, "measure and unit"));
     };

@@ -90,6 +90,20 @@ pub const PICTURE_FORM: Code = Code {
     page: include_str!("../../../docs/diagnostics/E0913.md"),
 };
 
+/// unknown form of export.
+pub const EXPORT_FORM: Code = Code {
+    id: "E0917",
+    title: "unknown form of export",
+    page: include_str!("../../../docs/diagnostics/E0917.md"),
+};
+
+/// there is no net to export.
+pub const NO_EXPORT: Code = Code {
+    id: "E0918",
+    title: "there is no net to export",
+    page: include_str!("../../../docs/diagnostics/E0918.md"),
+};
+
 /// All codes of this area.
 pub const ALL: &[&Code] = &[
     &CANNOT_READ,
@@ -105,4 +119,6 @@ pub const ALL: &[&Code] = &[
     &BAD_THREADS,
     &NO_PICTURE,
     &PICTURE_FORM,
+    &EXPORT_FORM,
+    &NO_EXPORT,
 ];

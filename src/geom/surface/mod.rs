@@ -6,6 +6,7 @@
 pub mod curvature;
 pub mod cutter;
 pub mod drop;
+pub mod grid;
 pub mod interval;
 pub mod net;
 pub mod patch;
