@@ -23,7 +23,7 @@ fn iges(global: &str, entities: &[(u32, u32, &str)]) -> String {
         let first = parameters.len() + 1;
         directory
             .push(format!("{kind:8}{first:8}{:8}{:8}{:8}{:8}{matrix:8}{:8}{:>8}", 0, 0, 0, 0, 0, "00000000"));
-        directory.push(format!("{kind:8}{:8}{:8}{:8}{:8}{:40}", 0, 0, own.len(), 0, ""));
+        directory.push(format!("{kind:8}{:8}{:8}{:8}{:8}{:32}", 0, 0, own.len(), 0, ""));
         parameters.extend(own.into_iter().map(|c| format!("{c:64}{:8}", 2 * i + 1)));
     }
     lines.extend(directory.iter().enumerate().map(|(i, d)| pad(d, 'D', i + 1)));

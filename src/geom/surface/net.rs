@@ -244,6 +244,21 @@ mod tests {
     }
 
     #[test]
+    fn the_image_of_a_net_is_the_image_of_its_points() {
+        let poles = grid(7, 4, |i, j| crate::math::count((3 * i + 5 * j) % 7));
+        let weights: Vec<f64> = (0..28).map(|k| 1.0 + crate::math::count(k % 3)).collect();
+        let image = |p: Point3| Point3::new(p.y - 2.0 * p.z, 3.0 - p.x, p.x + p.y + 0.5 * p.z);
+        for weights in [None, Some(weights.as_slice())] {
+            let net = Net::new(7, 4, &poles, weights).expect("a net");
+            let moved = net.map(image).expect("a net");
+            for (u, v) in [(0.0, 0.0), (0.7, 0.2), (1.4, 1.0)] {
+                assert!((moved.jet(u, v).p - image(net.jet(u, v).p)).norm() < 1e-12);
+            }
+        }
+        assert_eq!(Net::new(7, 4, &poles, None).map(|n| n.map(|p| p * 1e308)), Ok(Err(NetIssue::NotFinite)));
+    }
+
+    #[test]
     fn a_crease_shows_at_its_joint() {
         let roof =
             |i: usize, _: usize| if i <= 3 { crate::math::count(i) } else { 6.0 - crate::math::count(i) };
