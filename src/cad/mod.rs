@@ -187,11 +187,11 @@ fn listed(numbers: &[usize]) -> String {
     let more = runs.len() > LISTED;
     let mut parts: Vec<String> = Vec::new();
     for (from, to) in runs.into_iter().take(LISTED) {
-        parts.push(match to - from {
-            0 => from.to_string(),
-            1 => format!("{from}, {to}"),
-            _ => format!("{from} to {to}"),
-        });
+        if to - from > 1 {
+            parts.push(format!("{from} to {to}"));
+        } else {
+            parts.extend((from..=to).map(|n| n.to_string()));
+        }
     }
     if more {
         return format!("{} and more", parts.join(", "));

@@ -106,6 +106,7 @@ fn all_spellings_of_a_surface_are_the_same() {
 fn a_list_of_faces_is_short() {
     assert_eq!(listed(&[3]), "3");
     assert_eq!(listed(&[3, 7]), "3 and 7");
+    assert_eq!(listed(&[5, 6]), "5 and 6");
     assert_eq!(listed(&[1, 2, 4, 5, 6, 9]), "1, 2, 4 to 6 and 9");
     let odd: Vec<usize> = (0..100).map(|i| 2 * i).collect();
     assert!(listed(&odd).ends_with("20, 22 and more"));
