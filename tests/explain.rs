@@ -155,7 +155,7 @@ const NOT_BY_A_PROGRAM: [(&str, &[&str]); 8] = [
         "an emitted text that is not what it should be: src/verify/program_tests.rs, src/verify/surface/tests.rs",
         &[
             "E0801", "E0802", "E0803", "E0804", "E0805", "E0806", "E0807", "E0808", "E0809", "E0810",
-            "E0811", "E0820", "E0821",
+            "E0811", "E0812", "E0820", "E0821",
         ],
     ),
     (

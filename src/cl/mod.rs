@@ -5,9 +5,10 @@
 //!   the exact cutter-centre curve and the band it may be left in; `lower` chooses its vertices.
 //! - Records are in execution order. The state before the first record is: no tool, spindle and coolant off,
 //!   position unknown, no feed.
-//! - A [`Circle`] starts where the record before it left the cutter, which is known and lies on it.
+//! - A [`Circle`] starts where the record before it left the cutter, which is known and lies on it; the first control point of
+//!   a [`Spline`] is there.
 //! - Between `BeginCycle` and `EndCycle` every point is a `Hole`; other motion ends the cycle first.
-//! - Before a record that cuts (`Linear`, `Circle`, `Contour`, `Hole`), a tool, a spindle command and a feed have been given;
+//! - Before a record that cuts (`Linear`, `Circle`, `Spline`, `Contour`, `Hole`), a tool, a spindle command and a feed have been given;
 //!   the planner reports where they are missing.
 //! - Every record knows its [`Origin`]; records between `BeginOperation` and `EndOperation` belong to that
 //!   operation.
@@ -23,8 +24,10 @@ use crate::units::LengthUnit;
 
 pub mod lead;
 pub mod print;
+pub mod spline;
 
 pub use crate::ir::cycle::{Cycle, CycleKind, RetractTo};
+pub use spline::Spline;
 
 /// Cutter location data of one program.
 #[derive(Debug, Clone, Default)]
@@ -160,6 +163,8 @@ pub enum RecordKind {
     Linear(Point3),
     /// Along an arc or a helix at feed, from where the cutter is.
     Circle(Box<Circle>),
+    /// Along a spline at feed, from where the cutter is.
+    Spline(Box<Spline>),
     /// Along the surface at feed, from where the cutter is.
     Pass(Box<Pass>),
     /// Along an exact curve at feed.

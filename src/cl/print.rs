@@ -14,6 +14,7 @@
 use core::fmt::Write as _;
 
 use super::lead::{self, LeadPath};
+use super::spline::{self, Spline};
 use super::{
     Circle, Cl, Contour, Cycle, CycleKind, Effort, Lead, Operation, Pass, Record, RecordKind, RetractTo,
 };
@@ -105,6 +106,7 @@ impl Printer<'_> {
             RecordKind::Rapid(p) => self.rapid(*p),
             RecordKind::Linear(p) => self.move_to("GOTO", *p),
             RecordKind::Circle(circle) => self.arc(circle),
+            RecordKind::Spline(spline) => self.spline(spline),
             RecordKind::Pass(pass) => self.pass(pass),
             RecordKind::Contour(contour) => self.contour(contour),
             RecordKind::BeginCycle(cycle) => self.cycle(cycle),
@@ -273,6 +275,20 @@ impl Printer<'_> {
             if contour.exit != Lead::None {
                 self.rapid(at_height(path.to(), contour.clearance));
             }
+        }
+    }
+
+    /// As NX writes it: the first control point is where the cutter is, and of the knots there are those after the first
+    /// [`spline::ORDER`], the last one once, as shares of the whole.
+    fn spline(&mut self, spline: &Spline) {
+        self.line(format_args!("NURBS/"));
+        let knots = spline.knots();
+        let (first, last) = (knots[0], knots[knots.len() - 1]);
+        for knot in knots.get(spline::ORDER..=spline.points().len()).unwrap_or_default() {
+            self.line(format_args!("KNOT/ {}", (knot - first) / (last - first)));
+        }
+        for p in spline.points().iter().skip(1) {
+            self.move_to("CNTRL", *p);
         }
     }
 

@@ -59,7 +59,7 @@ impl Reader<'_> {
     }
 
     /// Whether the tool axis is off Z; counted, and reported once.
-    fn off_axis(&mut self) -> bool {
+    pub(super) fn off_axis(&mut self) -> bool {
         let a = self.state.axis;
         if a.z > 0.0 && a.x.abs() <= ALONG_Z && a.y.abs() <= ALONG_Z {
             return false;

@@ -1,22 +1,18 @@
 //! NX curves: `NURBS/`, `KNOT/` and `CNTRL/`.
 //!
 //! The curve is cubic and clamped over 0..1; its first control point is the point before it, and the record lists the inner
-//! knots and the last one: k knots for k + 2 further control points. It is flattened here, within the tolerance: the
-//! distance of a Bézier segment's inner control points from its chord bounds the distance of the curve.
+//! knots and the last one: k knots for k + 2 further control points.
 
 use super::grammar::Statement;
 use super::reader::Reader;
-use crate::diag::Diagnostic;
+use crate::cl::{RecordKind, Spline};
 use crate::diag::codes::foreign as codes;
 use crate::geom::Point3;
 
 /// Control points of one curve at most.
 const MOST_POINTS: usize = 1_000_000;
-/// Halvings of one segment at most.
-const DEEPEST: u32 = 16;
-
-/// Finest tolerance, mm: a tenth of the step that controls count in.
-const FINEST: f64 = 1e-4;
+/// How far the last knot may be from 1.
+const ONE: f64 = 1e-6;
 
 /// A curve being read.
 #[derive(Debug, Clone, Default)]
@@ -51,14 +47,6 @@ impl Reader<'_> {
         }
     }
 
-    /// Says once what became of all curves.
-    pub(super) fn report_curves(&mut self) {
-        let Some((span, curves, lines)) = self.state.flattened.take() else { return };
-        let tolerance = self.show(self.state.tolerance().max(FINEST));
-        let message = format!("{curves} curves (NURBS) are cut by {lines} lines, at most {tolerance} off");
-        self.tell(Diagnostic::new(&codes::CURVE_AS_LINES, span, message));
-    }
-
     fn control_points(&mut self, numbers: &[f64]) -> Vec<Point3> {
         let [x, y, z, ..] = *numbers else {
             self.complain(&codes::BAD_RECORD, "CNTRL takes 3 numbers".to_owned());
@@ -67,7 +55,7 @@ impl Reader<'_> {
         self.point([x, y, z]).into_iter().collect()
     }
 
-    /// The curve read so far becomes lines.
+    /// The curve read so far goes to the CL data.
     pub(super) fn flush_nurbs(&mut self) {
         let Some(spans) = self.state.nurbs.take() else { return };
         let Some(start) = self.state.at else {
@@ -75,71 +63,40 @@ impl Reader<'_> {
                 .complain(&codes::BAD_CURVE, "a curve from nowhere: no point stands before it".to_owned());
         };
         let (knots, points) = (spans.knots.len(), spans.points.len());
-        let rising = spans.knots.windows(2).all(|w| w[0] <= w[1]);
-        let clamped = spans.knots.first().is_some_and(|k| *k >= 0.0)
-            && spans.knots.last().is_some_and(|k| (k - 1.0).abs() < 1e-6);
-        if points != knots + 2 || !rising || !clamped {
+        let whole = spans.knots.first().is_some_and(|k| *k >= 0.0)
+            && spans.knots.last().is_some_and(|k| (k - 1.0).abs() < ONE);
+        let mut full = vec![0.0; 4];
+        full.extend(spans.knots.iter().map(|k| k.min(1.0)));
+        // The last knot counts once among those read, and as 1.
+        full.pop();
+        full.extend([1.0; 4]);
+        let mut control = vec![start];
+        control.extend(spans.points);
+        let spline =
+            Spline::new(control, full, self.state.tolerance()).filter(|_| whole && points == knots + 2);
+        let Some(spline) = spline else {
             let message = format!(
                 "the curve has {knots} knots and {points} control points; a cubic one has 2 control points more than knots, and its knots rise from 0 to 1"
             );
             return self.complain(&codes::BAD_CURVE, message);
-        }
-        let mut full = vec![0.0; 4];
-        full.extend(spans.knots);
-        full.extend([1.0; 3]);
-        let mut control = vec![start];
-        control.extend(spans.points);
-        let tolerance = self.state.tolerance().max(FINEST);
-        let mut ends = Vec::new();
-        for span in 3..control.len() {
-            let (a, b) = (full[span], full[span + 1]);
-            if b > a {
-                let bezier =
-                    [[a, a, a], [a, a, b], [a, b, b], [b, b, b]].map(|at| blossom(&control, &full, span, at));
-                flatten(bezier, tolerance, 0, &mut ends);
-            }
-        }
-        let flattened = self.state.flattened.get_or_insert((self.span, 0, 0));
-        flattened.1 += 1;
-        flattened.2 += ends.len();
-        for end in ends {
-            self.move_to(end);
-        }
+        };
+        self.along(spline);
     }
-}
 
-/// De Boor's scheme with an argument of its own for every level.
-fn blossom(control: &[Point3], knots: &[f64], span: usize, at: [f64; 3]) -> Point3 {
-    let mut d = [0, 1, 2, 3].map(|j| control.get(span - 3 + j).copied().unwrap_or_else(Point3::origin));
-    for level in 1..=3 {
-        for j in (level..=3).rev() {
-            let i = span - 3 + j;
-            let (low, high) = (knots[i], knots[i + 4 - level]);
-            let x = if high > low { (at[level - 1] - low) / (high - low) } else { 0.0 };
-            d[j] = d[j - 1] + (d[j] - d[j - 1]) * x;
+    /// Along a curve at feed; one that is a point moves nothing.
+    fn along(&mut self, spline: Spline) {
+        let to = spline.end();
+        if self.off_axis() || self.state.cycle_failed {
+            self.state.at = Some(to);
+            return;
         }
+        self.state.rapid = false;
+        self.pause_cycle();
+        self.make_sure();
+        self.state.moved = true;
+        if self.ready() && spline.points().iter().any(|p| *p != to) {
+            self.emit(RecordKind::Spline(Box::new(spline)));
+        }
+        self.state.at = Some(to);
     }
-    d[3]
-}
-
-fn flatten(b: [Point3; 4], tolerance: f64, depth: u32, ends: &mut Vec<Point3>) {
-    let off = distance(b[1], b[0], b[3]).max(distance(b[2], b[0], b[3]));
-    // A cubic comes to three quarters of its control points' distance at most.
-    if 0.75 * off <= tolerance || depth >= DEEPEST {
-        return ends.push(b[3]);
-    }
-    let mid = |p: Point3, q: Point3| p + (q - p) * 0.5;
-    let (ab, bc, cd) = (mid(b[0], b[1]), mid(b[1], b[2]), mid(b[2], b[3]));
-    let (abc, bcd) = (mid(ab, bc), mid(bc, cd));
-    let middle = mid(abc, bcd);
-    flatten([b[0], ab, abc, middle], tolerance, depth + 1, ends);
-    flatten([middle, bcd, cd, b[3]], tolerance, depth + 1, ends);
-}
-
-/// Distance of a point from the segment between two others.
-fn distance(p: Point3, a: Point3, b: Point3) -> f64 {
-    let (v, d) = (p - a, b - a);
-    let length = d.norm_squared();
-    let x = if length > 0.0 { (v.dot(&d) / length).clamp(0.0, 1.0) } else { 0.0 };
-    (v - d * x).norm()
 }

@@ -363,7 +363,6 @@ impl<'t> Reader<'t> {
         }
         self.leave_cycle();
         self.end_operation();
-        self.report_curves();
         if let Some(trouble) = self.axis_trouble.take() {
             self.report_axis(&trouble);
         }

@@ -45,8 +45,6 @@ pub(super) struct State {
     /// A cycle is in force that could not be understood: its holes are no cuts either.
     pub cycle_failed: bool,
     pub nurbs: Option<Spans>,
-    /// Curves that became lines: the first, how many, how many lines.
-    pub flattened: Option<(crate::source::Span, usize, usize)>,
     pub frame: Option<[f64; 12]>,
     /// Points are in the part's system, not in the operation's.
     pub world: bool,
@@ -90,7 +88,6 @@ impl State {
             cycle: None,
             cycle_failed: false,
             nurbs: None,
-            flattened: None,
             frame: None,
             world: false,
             frame_told: false,

@@ -26,7 +26,7 @@ fn framed(body: &str) -> String {
     format!("LOADTL/1\nSPINDL/1000,RPM,CLW\nFEDRAT/200,MMPM\nRAPID\nGOTO/10,0,5\n{body}\nFINI\n")
 }
 
-/// Kinds of the motion records, in order, by letter: R rapid, L line, C circle, H hole, B and E a cycle.
+/// Kinds of the motion records, in order, by letter: R rapid, L line, C circle, S spline, H hole, B and E a cycle.
 fn kinds(cl: &Cl) -> String {
     cl.records
         .iter()
@@ -34,6 +34,7 @@ fn kinds(cl: &Cl) -> String {
             RecordKind::Rapid(_) => Some('R'),
             RecordKind::Linear(_) => Some('L'),
             RecordKind::Circle(_) => Some('C'),
+            RecordKind::Spline(_) => Some('S'),
             RecordKind::Hole(_) => Some('H'),
             RecordKind::BeginCycle(_) => Some('B'),
             RecordKind::EndCycle => Some('E'),

@@ -6,6 +6,7 @@ use super::contour::Fitted;
 use super::cycle::Active;
 use super::feed::{self, FeedTrouble};
 use super::rotary;
+use super::spline::Told;
 use super::tools::Tools;
 use crate::arena::Handle;
 use crate::cl::{Cl, Contour, Lead, Record, RecordKind};
@@ -35,6 +36,7 @@ pub(super) fn program(
     emitter.records(fitted, passes);
     emitter.of_record = None;
     emitter.event(BlockKind::End);
+    emitter.report_curves();
     Some(emitter.finish().0)
 }
 
@@ -54,6 +56,7 @@ pub(super) struct Carry {
     spinning: Option<Spindle>,
     parked: bool,
     pecks_told: Option<(f64, f64)>,
+    curves_told: Vec<Told>,
 }
 
 /// Emits a chunk: the first one begins the program, the last one ends it.
@@ -82,6 +85,7 @@ pub(super) fn chunk(
     emitter.of_record = None;
     if last {
         emitter.event(BlockKind::End);
+        emitter.report_curves();
     }
     emitter.finish()
 }
@@ -102,6 +106,7 @@ impl Carry {
             spinning: None,
             parked: false,
             pecks_told: None,
+            curves_told: Vec::new(),
         }
     }
 }
@@ -116,9 +121,9 @@ const MOST_APPROACH: usize = 64;
 pub(super) struct Emitter<'a> {
     pub(super) cl: &'a Cl,
     pub(super) capabilities: &'a Capabilities,
-    sink: &'a mut Sink,
+    pub(super) sink: &'a mut Sink,
     tools: Tools,
-    origin: Handle<Origin>,
+    pub(super) origin: Handle<Origin>,
     /// The record that is being expressed.
     of_record: Option<u32>,
     pub(super) piece: Option<PieceId>,
@@ -147,6 +152,8 @@ pub(super) struct Emitter<'a> {
     parked: bool,
     /// First and further peck that a message has told about.
     pub(super) pecks_told: Option<(f64, f64)>,
+    /// Curves that became lines.
+    pub(super) curves_told: Vec<Told>,
 }
 
 impl<'a> Emitter<'a> {
@@ -182,6 +189,7 @@ impl<'a> Emitter<'a> {
             spinning: None,
             parked: false,
             pecks_told: None,
+            curves_told: Vec::new(),
         };
         emitter.forget();
         emitter
@@ -201,6 +209,7 @@ impl<'a> Emitter<'a> {
         self.spinning = carry.spinning;
         self.parked = carry.parked;
         self.pecks_told = carry.pecks_told;
+        self.curves_told = carry.curves_told;
     }
 
     fn records(&mut self, fitted: &[Option<Arc<Fitted>>], passes: &Passes) {
@@ -241,6 +250,7 @@ impl<'a> Emitter<'a> {
             spinning: self.spinning,
             parked: self.parked,
             pecks_told: self.pecks_told,
+            curves_told: self.curves_told,
         };
         (program, carry)
     }
@@ -302,6 +312,7 @@ impl<'a> Emitter<'a> {
                 self.exact = Some(*point);
             }
             RecordKind::Circle(circle) => self.circle(circle),
+            RecordKind::Spline(spline) => self.spline(spline),
             // Fitted passes are emitted by themselves, and without a fit there is no program.
             RecordKind::Pass(_) => {}
             RecordKind::BeginCycle(cycle) => self.begin_cycle(cycle),
@@ -534,6 +545,13 @@ impl<'a> Emitter<'a> {
     }
 
     fn linear_record(&mut self, [x, y, z]: [i64; 3]) {
+        let turn = self.face_front();
+        let feed = self.linear_feed();
+        self.line(Position { x, y, z, r: turn }, feed);
+    }
+
+    /// Before a Cartesian cut: the place must be known, and the table, if there is one, where such moves are made.
+    pub(super) fn face_front(&mut self) -> i64 {
         if self.at[..3].contains(&None) {
             let message = "a cut from where the machine happens to stand, and nobody knows where that is";
             self.complain(&codes::planning::NO_START, message.into());
@@ -542,8 +560,7 @@ impl<'a> Emitter<'a> {
         if self.at[3] != Some(turn) {
             self.rapid_axes(Position { r: turn, ..self.here() }, axes::ROTARY);
         }
-        let feed = self.linear_feed();
-        self.line(Position { x, y, z, r: turn }, feed);
+        turn
     }
 
     /// A straight cut; nothing when it has no length.

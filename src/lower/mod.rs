@@ -23,6 +23,7 @@ mod lead;
 mod pass;
 mod path;
 mod rotary;
+mod spline;
 pub mod stream;
 #[cfg(test)]
 mod tests;

@@ -103,6 +103,7 @@ fn pieces(path: &TracePath) -> u32 {
         TracePath::Arc { sweep, .. } => of_turn(*sweep),
         TracePath::Tilted(arc) => of_turn(arc.sweep),
         TracePath::Spiral { angle, .. } => of_turn(angle.1 - angle.0),
+        TracePath::Space(curve) => 8 * u32::try_from(curve.points.len()).unwrap_or(u32::MAX / 8).min(1 << 20),
         TracePath::Nurbs { points, .. } => {
             8 * u32::try_from(points.len()).unwrap_or(u32::MAX / 8).min(1 << 20)
         }
@@ -123,6 +124,7 @@ fn at(cut: &TraceMove, x: f64) -> Point3 {
             centre + Vec2::new(towards.x * c - towards.y * s, towards.x * s + towards.y * c) * radius
         }
         TracePath::Tilted(arc) => return arc.at(x),
+        TracePath::Space(curve) => return curve.at(x),
         TracePath::Spiral { radius, angle } => {
             let (s, c) = sin_cos(angle.0 + (angle.1 - angle.0) * x);
             Point2::new(c, s) * (radius.0 + (radius.1 - radius.0) * x)

@@ -167,7 +167,8 @@ fn differences(a: &TraceMove, b: &TraceMove, rate: f64) -> Vec<(Property, [Strin
         note(Property::Coolant, coolant(a.coolant), coolant(b.coolant));
     }
     if a.work_offset != b.work_offset {
-        note(Property::WorkOffset, a.work_offset.to_string(), b.work_offset.to_string());
+        let said = |offset: Option<u16>| offset.map_or_else(|| "none".to_owned(), |n| n.to_string());
+        note(Property::WorkOffset, said(a.work_offset), said(b.work_offset));
     }
     if a.path_tolerance != b.path_tolerance {
         note(Property::PathTolerance, number(a.path_tolerance), number(b.path_tolerance));

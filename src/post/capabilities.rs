@@ -13,6 +13,8 @@ use crate::units::{Angle, LengthUnit};
 
 /// Options of `MACHIN` that lowering knows; others are texts for templates.
 const SHARE: &str = "SHARE";
+/// The group of the work offsets.
+const WORK_OFFSET: &str = "work-offset";
 
 impl Dialect {
     /// What the control can do for a program in `unit`, on the machine that `MACHIN` describes.
@@ -55,6 +57,7 @@ impl Dialect {
                 "uniform" => Some(NurbsForm::G052),
                 _ => None,
             },
+            nurbs_in_space: spec.nurbs.point.iter().any(|item| item == "z"),
             rotary,
             feed_per_revolution: spec.feed.per_revolution,
             inverse_time: spec.feed.inverse_time,
@@ -67,6 +70,7 @@ impl Dialect {
             ranges: self.ranges(unit),
             mist: !spec.coolant.mist.is_empty(),
             flood: !spec.coolant.flood.is_empty(),
+            work_offset: self.work_offset(&options, unit),
             options,
             optional_stop: !spec.stops.optional.is_empty(),
             spindle: spec.limits.spindle.map(|[low, high]| (low, high)),
@@ -142,6 +146,16 @@ impl Dialect {
             format!("{key} is a number from 1 to {most} for {}, not `{value}`", self.title())
         };
         Err(Diagnostic::global(&codes::post::MACHINE_OPTION, message))
+    }
+
+    /// The work offset that the header selects: by a code of its group, or by the option alone.
+    fn work_offset(&self, options: &BTreeMap<String, String>, unit: LengthUnit) -> Option<u16> {
+        let group = self.spec.groups.get(WORK_OFFSET)?;
+        let printed = self.spec.safe_start.iter().flatten().any(|name| name == WORK_OFFSET);
+        match group.chosen(unit, options).filter(|code| printed && !code.is_empty()) {
+            Some(code) => group.count(&code),
+            None => Spec::option(options, "WCS")?.parse().ok(),
+        }
     }
 
     /// A declared unit of dwells is one that is known.

@@ -55,6 +55,7 @@ pub(super) fn patterns(dialect: &Dialect) -> Vec<(&'static str, Place, &[String]
         ("nurbs.point", Place::Nurbs, &spec.nurbs.point),
         ("nurbs.rest", Place::Nurbs, &spec.nurbs.rest),
         ("nurbs.end", Place::Nurbs, &spec.nurbs.end),
+        ("nurbs.between", Place::Between, &spec.nurbs.between),
         ("spindle.on", Place::Spindle, &spec.spindle.on),
         ("spindle.after-tool-change", Place::Spindle, &spec.spindle.after_tool_change),
         ("dwell.block", Place::Dwell, &spec.dwell.block),

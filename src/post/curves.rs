@@ -20,6 +20,8 @@ struct Words {
 struct CurveBlock {
     order: u8,
     point: Option<(Position, f64)>,
+    /// Z is said, where the pattern has it.
+    climbs: bool,
     knot: Option<f64>,
     feed: FeedWord,
 }
@@ -32,24 +34,28 @@ impl Events<'_> {
         let [begin, point, rest, end] =
             [&spec.begin, &spec.point, &spec.rest, &spec.end].map(|pattern| Item::all(pattern));
         let words = self.nurbs_words();
+        self.between_curves();
+        self.home_plane();
         self.curve_feed_mode(feed);
+        let climbs = nurbs.climbs();
         let knots = nurbs.knots.iter().map(|k| Some(*k)).chain(core::iter::repeat(None));
         let points = nurbs.points.iter().map(|p| Some(*p));
         let mut knots_left = nurbs.knots.len();
         for (index, (at, knot)) in points.zip(knots).enumerate() {
             let items = if index == 0 { &begin } else { &point };
-            self.curve_block(items, &words, CurveBlock { order: nurbs.order, point: at, knot, feed });
+            let climbs = climbs || index == 0;
+            let block = CurveBlock { order: nurbs.order, point: at, climbs, knot, feed };
+            self.curve_block(items, &words, block);
             knots_left = knots_left.saturating_sub(1);
         }
         if !rest.is_empty() {
             for knot in nurbs.knots.iter().skip(nurbs.knots.len() - knots_left) {
-                let block = CurveBlock { order: nurbs.order, point: None, knot: Some(*knot), feed };
+                let block = CurveBlock { knot: Some(*knot), ..rest_of(nurbs, feed) };
                 self.curve_block(&rest, &words, block);
             }
         }
         if !end.is_empty() {
-            let block = CurveBlock { order: nurbs.order, point: None, knot: None, feed };
-            self.curve_block(&end, &words, block);
+            self.curve_block(&end, &words, rest_of(nurbs, feed));
         }
         self.curve_arrive(nurbs);
     }
@@ -83,6 +89,7 @@ impl Events<'_> {
             match item {
                 Item::Text(text) => self.writer.text(text),
                 Item::Word(Slot::Feed) => self.curve_feed(block.feed),
+                Item::Word(Slot::Z) if !block.climbs => {}
                 Item::Word(slot) => self.curve_axis(*slot, block.point),
                 Item::Named(Named::Order) => self.writer.number(&words.order, i64::from(block.order)),
                 Item::Named(Named::Knot) => self.real(&words.knot, block.knot),
@@ -103,7 +110,7 @@ impl Events<'_> {
         let value = match slot {
             Slot::X => at.x,
             Slot::Y => at.y,
-            _ => self.writer.position.z,
+            _ => at.z,
         };
         let format = self.writer.table.words[slot as usize].clone();
         self.writer.number(&format, value);
@@ -130,12 +137,35 @@ impl Events<'_> {
 
     fn curve_arrive(&mut self, nurbs: &Nurbs) {
         self.writer.state.motion = None;
+        self.writer.state.curve = true;
         if let Some((end, _)) = nurbs.points.last() {
-            // Curves are in the XY plane.
-            self.writer.position.x = end.x;
-            self.writer.position.y = end.y;
-            self.writer.state.axes[0] = Some(end.x);
-            self.writer.state.axes[1] = Some(end.y);
+            let (position, axes) = (&mut self.writer.position, &mut self.writer.state.axes);
+            (position.x, position.y) = (end.x, end.y);
+            (axes[0], axes[1]) = (Some(end.x), Some(end.y));
+            if nurbs.climbs() {
+                position.z = end.z;
+                axes[2] = Some(end.z);
+            }
         }
     }
+
+    /// What keeps a curve from going on the one before it.
+    fn between_curves(&mut self) {
+        let items = Item::all(&self.writer.dialect.spec.nurbs.between);
+        if !self.writer.state.curve || items.is_empty() {
+            return;
+        }
+        self.writer.begin_line(true);
+        for item in &items {
+            if let Item::Text(text) = item {
+                self.writer.text(text);
+            }
+        }
+        self.writer.end_line();
+    }
+}
+
+/// A block after the control points.
+fn rest_of(nurbs: &Nurbs, feed: FeedWord) -> CurveBlock {
+    CurveBlock { order: nurbs.order, point: None, climbs: false, knot: None, feed }
 }

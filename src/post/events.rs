@@ -160,7 +160,7 @@ impl<'a> Events<'a> {
         }
     }
 
-    /// Tool axis and cycles are along Z: the plane of arcs is XY again.
+    /// Tool axis, curves and cycles are along Z: the plane of arcs is XY again.
     pub(super) fn home_plane(&mut self) {
         self.writer.begin_line(true);
         self.writer.plane(0);

@@ -50,6 +50,7 @@ impl Writer<'_> {
             Motion::Nurbs { .. } => return,
         };
         if self.has_something_to_do(&block) {
+            self.state.curve = false;
             self.print(&block);
             self.arrive(&block);
         }

@@ -249,6 +249,19 @@ impl Group {
         let further = u32::try_from(index - self.codes.len()).ok().filter(|n| *n < self.more_count)?;
         Some(format!("{}{}", self.more, self.more_from.checked_add(further)?))
     }
+
+    /// Which of the group's codes this is, counted from 1 as its option counts them.
+    #[must_use]
+    pub fn count(&self, code: &str) -> Option<u16> {
+        let plain = self.codes.iter().position(|c| c == code);
+        let further = || {
+            let number: u32 =
+                code.strip_prefix(&self.more).filter(|_| !self.more.is_empty())?.parse().ok()?;
+            let further = number.checked_sub(self.more_from).filter(|n| *n < self.more_count)?;
+            Some(self.codes.len() + further as usize)
+        };
+        u16::try_from(plain.or_else(further)? + 1).ok()
+    }
 }
 
 /// Which end words a full circle carries.
@@ -403,6 +416,7 @@ pub struct Nurbs {
     pub point: Vec<String>,
     pub rest: Vec<String>,
     pub end: Vec<String>,
+    pub between: Vec<String>,
     pub weight_decimals: u8,
     pub knot_decimals: u8,
     pub max_order: u8,

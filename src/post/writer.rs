@@ -26,6 +26,8 @@ pub(super) struct ModalState {
     pub plane: Option<usize>,
     /// Path tolerance in steps; `Some(None)`: exact path.
     pub path: Option<Option<i64>>,
+    /// The last motion was a NURBS curve.
+    pub curve: bool,
 }
 
 /// What one part of a program leaves to the next.

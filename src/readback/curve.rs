@@ -1,7 +1,7 @@
 //! Curves that controls draw: lengths, for feeds and times, and points of NURBS.
 
-use super::TracePath;
-use crate::geom::{Point2, Vec2};
+use super::{SpaceCurve, TracePath};
+use crate::geom::{Point2, Point3};
 use crate::math::hypot;
 
 /// Nodes and weights of the five-point Gauss rule on [0, 1].
@@ -20,6 +20,9 @@ pub(super) fn along(path: &TracePath, rise: f64) -> f64 {
             let (r0, r1) = arc.radii();
             hypot(polar_length(r0, r1, arc.sweep), arc.rise())
         }
+        TracePath::Space(curve) => {
+            chords(curve.points.len(), |x| curve.at(x)).map(|(a, b)| (b - a).norm()).sum()
+        }
         _ => hypot(flat(path), rise),
     }
 }
@@ -36,8 +39,14 @@ fn flat(path: &TracePath) -> f64 {
         TracePath::Tilted(arc) => (arc.to - arc.from).xy().norm(),
         TracePath::Spiral { radius, angle } => polar_length(radius.0, radius.1, angle.1 - angle.0),
         TracePath::Nurbs { order, points, weights, knots } => {
-            nurbs_length(usize::from(*order), points, weights, knots)
+            let order = usize::from(*order);
+            let (u0, u1) = domain(order, points.len(), knots);
+            let at = |x: f64| point(order, points, weights, knots, u0 + (u1 - u0) * x);
+            chords(points.len(), at).map(|(a, b)| (b - a).norm()).sum()
         }
+        TracePath::Space(curve) => chords(curve.points.len(), |x| curve.at(x).xy())
+            .map(|(a, b): (Point2, Point2)| (b - a).norm())
+            .sum(),
     }
 }
 
@@ -47,42 +56,58 @@ fn polar_length(r0: f64, r1: f64, sweep: f64) -> f64 {
     GAUSS.iter().map(|&(x, w)| w * hypot((r0 + d * x) * sweep, d)).sum()
 }
 
-#[allow(clippy::cast_precision_loss)]
-fn nurbs_length(order: usize, points: &[Point2], weights: &[f64], knots: &[f64]) -> f64 {
-    let chords = 256 * points.len().min(4096);
-    let (Some(&u0), Some(&u1)) = (knots.get(order.saturating_sub(1)), knots.get(points.len())) else {
-        return 0.0;
-    };
-    let at = |i: usize| {
-        let u = u0 + (u1 - u0) * i as f64 / chords as f64;
-        point(order, points, weights, knots, u)
-    };
-    let mut length = 0.0;
-    let mut last = at(0);
-    for i in 1..=chords {
-        let next = at(i);
-        length += (next - last).norm();
-        last = next;
-    }
-    length
+/// Ends of 256 chords a control point over 0..1.
+fn chords<P: Copy>(points: usize, at: impl Fn(f64) -> P) -> impl Iterator<Item = (P, P)> {
+    let count = 256 * u32::try_from(points.min(4096)).unwrap_or(4096);
+    let mut last = at(0.0);
+    (1..=count).map(move |i| {
+        let next = at(f64::from(i) / f64::from(count));
+        (core::mem::replace(&mut last, next), next)
+    })
 }
 
-/// Point of a rational B-spline at `u`, by de Boor's algorithm on homogeneous coordinates. Parameters outside the
-/// domain give the nearest end.
+/// First and last parameter of a curve with this many control points.
+fn domain(order: usize, points: usize, knots: &[f64]) -> (f64, f64) {
+    let first = knots.get(order.saturating_sub(1)).copied().unwrap_or(0.0);
+    (first, knots.get(points).copied().unwrap_or(first))
+}
+
+/// Point of a rational B-spline at `u`. Parameters outside the domain give the nearest end.
 pub(crate) fn point(order: usize, points: &[Point2], weights: &[f64], knots: &[f64], u: f64) -> Point2 {
     let Some(first) = points.first() else { return Point2::origin() };
-    if order < 2 || points.len() < order || knots.len() < points.len() + order {
-        return *first;
+    let control = |i: usize| points.get(i).unwrap_or(first).coords.into();
+    Point2::from(rational(order, (points.len(), control), weights, knots, u))
+}
+
+/// Point of a curve in space at `x` in 0..1 of its domain.
+pub(super) fn space_point(curve: &SpaceCurve, x: f64) -> Point3 {
+    let Some(first) = curve.points.first() else { return Point3::origin() };
+    let order = usize::from(curve.order);
+    let (u0, u1) = domain(order, curve.points.len(), &curve.knots);
+    let control = |i: usize| curve.points.get(i).unwrap_or(first).coords.into();
+    let points = (curve.points.len(), control);
+    Point3::from(rational(order, points, &curve.weights, &curve.knots, u0 + (u1 - u0) * x))
+}
+
+/// De Boor's algorithm on homogeneous coordinates; `points` are how many, and each of them.
+fn rational<const D: usize>(
+    order: usize,
+    (count, control): (usize, impl Fn(usize) -> [f64; D]),
+    weights: &[f64],
+    knots: &[f64],
+    u: f64,
+) -> [f64; D] {
+    if order < 2 || count < order || knots.len() < count + order {
+        return control(0);
     }
-    let last = points.len() - 1;
-    let inside = knots.get(order..points.len()).unwrap_or_default();
+    let inside = knots.get(order..count).unwrap_or_default();
     let span = order - 1 + inside.partition_point(|&k| k <= u);
-    let mut d = [(Vec2::zeros(), 0.0); 32];
+    let mut d = [([0.0; D], 0.0); 32];
     let used = order.min(32);
     for (j, slot) in d.iter_mut().enumerate().take(used) {
-        let i = (span + 1 + j - order).min(last);
+        let i = (span + 1 + j - order).min(count - 1);
         let w = weights.get(i).copied().unwrap_or(1.0);
-        *slot = (points.get(i).unwrap_or(first).coords * w, w);
+        *slot = (control(i).map(|v| v * w), w);
     }
     let knot = |i: usize| knots.get(i).copied().unwrap_or(0.0);
     for r in 1..used {
@@ -90,9 +115,10 @@ pub(crate) fn point(order: usize, points: &[Point2], weights: &[f64], knots: &[f
             let i = span + 1 + j - order;
             let (a, b) = (knot(i), knot(i + order - r));
             let t = if b > a { ((u - a) / (b - a)).clamp(0.0, 1.0) } else { 0.0 };
-            d[j] = (d[j - 1].0 * (1.0 - t) + d[j].0 * t, d[j - 1].1 * (1.0 - t) + d[j].1 * t);
+            let mix = |p: f64, q: f64| p * (1.0 - t) + q * t;
+            d[j] = (core::array::from_fn(|c| mix(d[j - 1].0[c], d[j].0[c])), mix(d[j - 1].1, d[j].1));
         }
     }
     let (p, w) = d[used - 1];
-    Point2::from(p / w)
+    p.map(|v| v / w)
 }

@@ -23,7 +23,8 @@ mod tests;
 
 pub(crate) use curve::point as nurbs_point;
 pub use trace::{
-    EventKind, Fault, FeedMode, MOST_FAULTS, Tilted, Trace, TraceEvent, TraceMove, TracePath, Washing,
+    EventKind, Fault, FeedMode, MOST_FAULTS, SpaceCurve, Tilted, Trace, TraceEvent, TraceMove, TracePath,
+    Washing,
 };
 
 /// The machine about the control, as far as a program's meaning depends on it.

@@ -74,7 +74,8 @@ pub enum EventKind {
 pub struct TraceMove {
     /// Where the cutter goes, in the part's frame.
     pub path: TracePath,
-    /// Tip height at start and end, mm; linear along the move but for [`TracePath::Tilted`].
+    /// Tip height at start and end, mm; linear along the move but for [`TracePath::Tilted`] and
+    /// [`TracePath::Space`].
     pub z: (f64, f64),
     /// Rapid.
     pub rapid: bool,
@@ -94,8 +95,9 @@ pub struct TraceMove {
     pub length_offset: bool,
     /// Coolant.
     pub coolant: Washing,
-    /// Work offset in force: 1 for the first one (G54), 0 when the program has not selected one.
-    pub work_offset: u16,
+    /// Work offset in force, as the control counts them: 1 for the first one (G54), 7 for the one after G59; a preset's own
+    /// number. `None` when the program has not selected one.
+    pub work_offset: Option<u16>,
     /// The move is part of a drilling cycle that the control works off by itself.
     pub in_cycle: bool,
     /// How far the control may leave the path by its own smoothing, mm: 0 on exact path, infinite without a bound.
@@ -165,6 +167,41 @@ pub enum TracePath {
         /// Knots.
         knots: Vec<f64>,
     },
+    /// NURBS curve whose height changes.
+    Space(Box<SpaceCurve>),
+}
+
+/// A NURBS curve in space.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SpaceCurve {
+    /// Order.
+    pub order: u8,
+    /// Control points.
+    pub points: Vec<Point3>,
+    /// Weights.
+    pub weights: Vec<f64>,
+    /// Knots.
+    pub knots: Vec<f64>,
+}
+
+impl SpaceCurve {
+    /// Point at `x` in 0..1 of the domain.
+    #[must_use]
+    pub fn at(&self, x: f64) -> Point3 {
+        curve::space_point(self, x)
+    }
+    /// Least and greatest coordinate of the control points on an axis (0 X, 1 Y, 2 Z): the curve is between them.
+    #[must_use]
+    pub fn extent(&self, of: usize) -> (f64, f64) {
+        let values = self.points.iter().filter_map(|p| p.coords.get(of));
+        values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(*v), b.max(*v)))
+    }
+    fn first(&self) -> Point3 {
+        self.points.first().copied().unwrap_or_else(Point3::origin)
+    }
+    fn last(&self) -> Point3 {
+        self.points.last().copied().unwrap_or_else(Point3::origin)
+    }
 }
 
 /// An arc, circle or helix in space.
@@ -255,6 +292,7 @@ impl TraceMove {
     pub fn heights(&self) -> (f64, f64) {
         match &self.path {
             TracePath::Tilted(arc) => arc.heights(),
+            TracePath::Space(curve) => curve.extent(2),
             _ => (self.z.0.min(self.z.1), self.z.0.max(self.z.1)),
         }
     }
@@ -281,6 +319,7 @@ impl TracePath {
             TracePath::Tilted(arc) => arc.from.xy(),
             TracePath::Spiral { radius, angle } => polar(radius.0, angle.0),
             TracePath::Nurbs { points, .. } => points.first().copied().unwrap_or_else(Point2::origin),
+            TracePath::Space(curve) => curve.first().xy(),
         }
     }
     /// Last point.
@@ -291,6 +330,7 @@ impl TracePath {
             TracePath::Tilted(arc) => arc.to.xy(),
             TracePath::Spiral { radius, angle } => polar(radius.1, angle.1),
             TracePath::Nurbs { points, .. } => points.last().copied().unwrap_or_else(Point2::origin),
+            TracePath::Space(curve) => curve.last().xy(),
         }
     }
 }

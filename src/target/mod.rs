@@ -116,6 +116,8 @@ pub struct Capabilities {
     pub helix: bool,
     /// NURBS form, if any.
     pub nurbs: Option<NurbsForm>,
+    /// NURBS may change Z.
+    pub nurbs_in_space: bool,
     /// Rotary table, if the machine has one: letter, and whether it turns against ISO 841.
     pub rotary: Option<RotaryAxis>,
     /// Feed per revolution available.
@@ -139,6 +141,9 @@ pub struct Capabilities {
     pub optional_stop: bool,
     /// What templates read as `options`: the post's own values and those that `MACHIN` changes.
     pub options: std::collections::BTreeMap<String, String>,
+    /// The work offset that the program is to select, as the control counts them (1 for the first one); `None` where the
+    /// post selects none, or one that is not known by its number.
+    pub work_offset: Option<u16>,
     /// Slowest and fastest spindle speed, rev/min, where declared.
     pub spindle: Option<(f64, f64)>,
 }
@@ -368,6 +373,14 @@ pub struct Nurbs {
     pub points: Vec<(Position, f64)>,
     /// Knots, points + order of them.
     pub knots: Vec<f64>,
+}
+
+impl Nurbs {
+    /// Whether the height of its control points changes.
+    #[must_use]
+    pub fn climbs(&self) -> bool {
+        self.points.windows(2).any(|pair| pair[0].0.z != pair[1].0.z)
+    }
 }
 
 /// What a block is.

@@ -186,9 +186,13 @@ fn feed_text(grid: &Grid, feed: FeedWord) -> String {
 
 fn nurbs_text(grid: &Grid, nurbs: &Nurbs) -> String {
     let mut text = format!(" order {}", nurbs.order);
+    let decimals = grid.linear_decimals;
     for (p, w) in &nurbs.points {
-        let _ =
-            write!(text, " ({} {} {w})", plain(p.x, grid.linear_decimals), plain(p.y, grid.linear_decimals));
+        let _ = write!(text, " ({} {}", plain(p.x, decimals), plain(p.y, decimals));
+        if nurbs.climbs() {
+            let _ = write!(text, " {}", plain(p.z, decimals));
+        }
+        let _ = write!(text, " {w})");
     }
     let _ = write!(text, " knots {:?}", nurbs.knots);
     text

@@ -34,6 +34,7 @@ pub(super) fn all(case: &Case<'_>) -> Vec<Finding> {
                 }
                 at = Some(circle.to);
             }
+            RecordKind::Spline(spline) => at = Some(spline.end()),
             RecordKind::From(p) | RecordKind::Rapid(p) | RecordKind::Linear(p) => at = Some(*p),
             RecordKind::BeginCycle(cycle) => depth = cycle.depth,
             RecordKind::Hole(p) => at = Some(Point3::new(p.x, p.y, p.z - depth)),
@@ -164,7 +165,7 @@ fn measure(asked: &Asked, cut: &TraceMove, turned: f64) -> (f64, f64) {
         }
         TracePath::Tilted(tilted) => arc(asked, tilted, turned),
         TracePath::Line { .. } => line(asked, cut, turned),
-        TracePath::Spiral { .. } | TracePath::Nurbs { .. } => (f64::INFINITY, turned),
+        TracePath::Spiral { .. } | TracePath::Nurbs { .. } | TracePath::Space(_) => (f64::INFINITY, turned),
     }
 }
 

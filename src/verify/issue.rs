@@ -60,7 +60,7 @@ pub(super) fn count_moves(case: &Case<'_>, moves: &mut Moves) {
             (TracePath::Line { .. }, false) => &mut moves.lines,
             (TracePath::Arc { .. } | TracePath::Tilted(_), false) => &mut moves.arcs,
             (TracePath::Spiral { .. }, false) => &mut moves.spirals,
-            (TracePath::Nurbs { .. }, false) => &mut moves.nurbs,
+            (TracePath::Nurbs { .. } | TracePath::Space(_), false) => &mut moves.nurbs,
         };
         *counter += 1;
     }

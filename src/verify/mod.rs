@@ -7,7 +7,7 @@
 //! - no move goes deeper into a finished wall than its tolerance allows; no rapid runs below the part's top but straight
 //!   up, or clear of the blank ([`guard`]);
 //! - a finished surface is gouged nowhere, and nowhere is more left on it than allowed ([`surface`]);
-//! - every arc, helix and drilled hole of the CL data is made as asked ([`circles`], [`holes`]), every dwell, stop and tool
+//! - every arc, helix, spline and drilled hole of the CL data is made as asked ([`circles`], [`curves`], [`holes`]), every dwell, stop and tool
 //!   change stands where it was asked for and nowhere else ([`events`]);
 //! - every cut has its feed, its spindle, its tool and its coolant ([`state`]); every block ends where the lowered program says, and
 //!   the points of the CL data are reached in order ([`points`]);
@@ -33,6 +33,7 @@ use crate::target::{BlockKind, TargetProgram};
 mod certificate;
 mod circles;
 mod clearance;
+mod curves;
 mod events;
 mod finding;
 mod follow;
@@ -347,6 +348,7 @@ fn check(
     findings.extend(points::cl_points(case, before));
     findings.extend(holes::all(case));
     findings.extend(circles::all(case));
+    findings.extend(curves::all(case));
     findings.extend(events::all(case));
     findings.sort_by_key(Finding::line);
     (findings, Proofs { contours, surfaces })

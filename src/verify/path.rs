@@ -82,6 +82,10 @@ impl Primitive {
                 radius: (radius.0, radius.1 - radius.0),
                 angle: (angle.0, angle.1 - angle.0),
             }],
+            TracePath::Space(curve) => {
+                let flat: Vec<Point2> = curve.points.iter().map(|p| p.xy()).collect();
+                super::spline::segments(usize::from(curve.order), &flat, &curve.weights, &curve.knots)
+            }
             TracePath::Nurbs { order, points, weights, knots } => {
                 super::spline::segments(usize::from(*order), points, weights, knots)
             }

@@ -86,6 +86,7 @@ pub(super) fn written(cl: &Cl) -> Vec<Handle<Origin>> {
             | RecordKind::Rapid(_)
             | RecordKind::Linear(_)
             | RecordKind::Circle(_)
+            | RecordKind::Spline(_)
             | RecordKind::Hole(_)
                 if !inside =>
             {

@@ -49,6 +49,7 @@ fn extent(path: &TracePath) -> (Range, Range) {
         TracePath::Spiral { radius, .. } => ((radius.0.min(radius.1), radius.0.max(radius.1)), (0.0, 0.0)),
         TracePath::Nurbs { points, .. } => of(points),
         TracePath::Tilted(arc) => (arc.extent(0), arc.extent(1)),
+        TracePath::Space(curve) => (curve.extent(0), curve.extent(1)),
         TracePath::Arc { from, to, centre, sweep } => {
             let mut points = vec![*from, *to];
             let start = crate::math::atan2(from.y - centre.y, from.x - centre.x);
@@ -312,6 +313,7 @@ pub(super) fn cl_points(case: &Case<'_>, before: Option<Point3>) -> Vec<Finding>
         let point = match record.kind {
             RecordKind::From(p) | RecordKind::Rapid(p) | RecordKind::Linear(p) => p,
             RecordKind::Circle(ref circle) => circle.to,
+            RecordKind::Spline(ref spline) => spline.end(),
             RecordKind::BeginCycle(ref cycle) => {
                 depth = cycle.depth;
                 continue;

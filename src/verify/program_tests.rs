@@ -376,3 +376,20 @@ fn travel_limits_hold() {
     });
     assert!(!proven && codes == ["E0808"], "{codes:?}");
 }
+
+#[test]
+fn a_cut_in_another_work_offset_is_found() {
+    for (post, asked, other) in [
+        ("fanuc", "G54", "G55"),
+        ("linuxcnc", "G54", "G59.1"),
+        ("grbl", "G54", "G56"),
+        ("haas", "G54", "G154 P1"),
+        ("okuma", "G15 H1", "G15 H2"),
+    ] {
+        let built = built(post, Interpolation::Circular, BAND, LengthUnit::Millimetre);
+        let text = built.emitted.text.replacen(asked, other, 1);
+        assert_ne!(text, built.emitted.text, "{post}");
+        let (proven, codes, said) = built.prove(&text);
+        assert!(proven.is_none() && codes.iter().any(|code| code.id == "E0812"), "{post}: {said}");
+    }
+}

@@ -2,13 +2,14 @@
 
 use proptest::prelude::*;
 
-use crate::cl::{Circle, Cl, Cycle, CycleKind, Record, RecordKind, RetractTo};
+use crate::cl::{Circle, Cl, Cycle, CycleKind, Record, RecordKind, RetractTo, Spline};
 use crate::diag::Sink;
 use crate::geom::{Point3, Vec3};
 use crate::ir::{Coolant, Feed, Origin, Spindle, Tool};
 use crate::math::{TAU, sin_cos};
 use crate::post::{builtin_names, load, write};
 use crate::source::{FileId, MemoryFiles, SourceMap, Span};
+use crate::target::{BlockKind, Motion, TargetProgram};
 use crate::units::LengthUnit;
 
 use super::{Emitted, prove};
@@ -19,6 +20,7 @@ enum Act {
     Rapid([i32; 3]),
     Linear([i32; 3]),
     Round { axis: usize, radius: u32, start: u32, sweep: u32, rise: i32, clockwise: bool },
+    Curve { points: Vec<[i32; 3]>, inner: Vec<u32>, level: bool },
     Holes { kind: u8, depth: i32, initial: bool, at: Vec<[i32; 2]> },
     Dwell(u32),
     Feed(u32),
@@ -32,6 +34,8 @@ fn acts() -> impl Strategy<Value = Vec<Act>> {
         1 => place().prop_map(Act::Rapid),
         4 => (0..3_usize, 60..4000_u32, 0..360_u32, 5..=360_u32, prop_oneof![Just(0), -300..300_i32], any::<bool>())
             .prop_map(|(axis, radius, start, sweep, rise, clockwise)| Act::Round { axis, radius, start, sweep, rise, clockwise }),
+        3 => (prop::collection::vec(place(), 4..9), prop::collection::vec(1..50_u32, 9), any::<bool>())
+            .prop_map(|(points, inner, level)| Act::Curve { points, inner, level }),
         2 => (0..8_u8, 100..3000_i32, any::<bool>(), prop::collection::vec([-9000..9000_i32, -9000..9000_i32], 1..4))
             .prop_map(|(kind, depth, initial, at)| Act::Holes { kind, depth, initial, at }),
         1 => (1..400_u32).prop_map(Act::Dwell),
@@ -95,6 +99,7 @@ fn add(act: &Act, at: Point3, kinds: &mut Vec<RecordKind>) -> Point3 {
             })));
             to
         }
+        Act::Curve { points, inner, level } => curve(points, inner, *level, at, kinds),
         Act::Holes { kind, depth, initial, at: places } => {
             holes(*kind, mm(*depth), *initial, places, at, kinds)
         }
@@ -113,6 +118,30 @@ fn add(act: &Act, at: Point3, kinds: &mut Vec<RecordKind>) -> Point3 {
             at
         }
     }
+}
+
+/// A spline from `at`; the intervals between its knots are as `inner` says, all the same where that is 25 or more.
+fn curve(points: &[[i32; 3]], inner: &[u32], level: bool, at: Point3, kinds: &mut Vec<RecordKind>) -> Point3 {
+    let mut control = vec![at];
+    // As curves of CAM systems do, they go on in one direction and do not turn back on themselves.
+    let mut x = at.x;
+    for p in points {
+        x += 5.0 + mm(p[0]).abs() / 10.0;
+        control.push(Point3::new(x, mm(p[1]) / 2.0, if level { at.z } else { mm(p[2]) }));
+    }
+    let even = inner.first().is_some_and(|i| *i >= 25);
+    let mut knots = vec![0.0; 3];
+    let mut knot = 0.0;
+    for interval in inner.iter().cycle().take(control.len() - 2) {
+        knots.push(knot);
+        knot += if even { 1.0 } else { f64::from(*interval) };
+    }
+    let last = knots.last().copied().unwrap_or(0.0);
+    knots.extend([last; 3]);
+    let spline = Spline::new(control, knots, 0.01).expect("a spline");
+    let end = spline.end();
+    kinds.push(RecordKind::Spline(Box::new(spline)));
+    end
 }
 
 fn holes(
@@ -158,19 +187,32 @@ fn holes(
     up
 }
 
-/// Lowers, writes and proves; the messages when the proof fails, nothing when lowering refuses the program.
-fn trouble(post: &str, cl: &Cl) -> Option<String> {
+/// What a post makes of CL data.
+struct Written {
+    target: TargetProgram,
+    emitted: Emitted,
+    control: String,
+}
+
+/// Lowers and writes; nothing when lowering refuses the program.
+fn written(post: &str, cl: &Cl) -> Option<Written> {
     let dialect = load(post, &MemoryFiles::default(), &mut SourceMap::default()).expect("a built-in post");
     let capabilities = dialect.capabilities(cl.units, None).expect("capabilities");
-    let mut sink = Sink::default();
-    let target = crate::lower::lower(cl, &capabilities, &mut sink)?;
+    let target = crate::lower::lower(cl, &capabilities, &mut Sink::default())?;
     let written = write(&dialect, &target, &cl.origins).expect("a text");
-    let emitted = Emitted { text: written.text.clone(), lines: written.lines };
+    let emitted = Emitted { text: written.text, lines: written.lines };
+    Some(Written { target, emitted, control: dialect.control().to_owned() })
+}
+
+/// Lowers, writes and proves; the messages when the proof fails, nothing when lowering refuses the program.
+fn trouble(post: &str, cl: &Cl) -> Option<String> {
+    let Written { target, emitted, control } = written(post, cl)?;
+    let text = emitted.text.clone();
     let mut sink = Sink::default();
-    let proven = prove(cl, &target, emitted, dialect.control(), &mut sink);
+    let proven = prove(cl, &target, emitted, &control, &mut sink);
     proven.is_none().then(|| {
         let said: String = sink.items().iter().map(|d| format!("{} {}\n", d.code.id, d.message)).collect();
-        format!("{post}:\n{said}\n{}", written.text)
+        format!("{post}:\n{said}\n{text}")
     })
 }
 
@@ -195,5 +237,48 @@ fn what_went_wrong_once_reads_back_as_asked() {
     let cl = cl(&[helix], LengthUnit::Inch);
     for post in builtin_names() {
         assert_eq!(trouble(post, &cl), None);
+    }
+}
+
+/// The words of curves, each changed by 0.05.
+fn damaged(text: &str, lines: core::ops::Range<usize>) -> Vec<String> {
+    let mut all = Vec::new();
+    for n in lines {
+        let line = text.lines().nth(n).expect("a line");
+        let words = line.split(' ').filter(|w| w.starts_with(['X', 'Y', 'Z', 'K', 'R']));
+        for word in words.chain(line.split(' ').filter(|w| w.starts_with("PW="))) {
+            let digits = word.find(|c: char| c.is_ascii_digit() || c == '-').expect("a number");
+            let value: f64 = word[digits..].parse().expect("a number");
+            let other = line.replacen(word, &format!("{}{:.4}", &word[..digits], value + 0.05), 1);
+            let lines = text.lines().enumerate().map(|(i, l)| if i == n { other.as_str() } else { l });
+            all.push(lines.collect::<Vec<_>>().join("\n") + "\n");
+        }
+    }
+    all
+}
+
+#[test]
+fn a_curve_with_a_wrong_word_is_found() {
+    let level = [[1000, 0, 0], [2000, 1500, 0], [3000, 0, 0], [4000, 0, 0], [5000, 500, 0]];
+    let climbing = [[1000, 0, 100], [2000, 1500, 0], [3000, 0, -200], [4000, 0, -300], [5000, 500, -500]];
+    let cases = [("linuxcnc", level), ("fanuc", level), ("sinumerik", level), ("fanuc", climbing)];
+    for (post, points) in cases.into_iter().chain([("mitsubishi", climbing), ("sinumerik", climbing)]) {
+        for inner in [vec![25; 9], vec![3, 7, 5, 2, 9]] {
+            let act = Act::Curve { points: points.to_vec(), inner, level: points == level };
+            let cl = cl(&[Act::Linear([0, 0, 500]), act], LengthUnit::Millimetre);
+            let Written { target, emitted, control } = written(post, &cl).expect("a program");
+            let curves = target.blocks.iter().zip(&emitted.lines);
+            let curves = curves.filter(|(b, _)| matches!(b.kind, BlockKind::Motion(Motion::Nurbs { .. })));
+            let mut tried = 0;
+            for (_, (from, to)) in curves {
+                for text in damaged(&emitted.text, *from as usize - 1..*to as usize - 1) {
+                    let other = Emitted { text: text.clone(), lines: emitted.lines.clone() };
+                    let proven = prove(&cl, &target, other, &control, &mut Sink::default());
+                    assert!(proven.is_none(), "{post}: {text}");
+                    tried += 1;
+                }
+            }
+            assert!(tried >= 10, "{post}: {tried}");
+        }
     }
 }

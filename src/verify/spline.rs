@@ -1,4 +1,4 @@
-//! NURBS curves as rational Bézier segments, by knot insertion.
+//! NURBS curves as rational Bézier segments, by their polar forms.
 
 use super::path::{Jet, Primitive};
 use crate::geom::{Point2, Vec2};
@@ -8,62 +8,73 @@ const MOST_ORDER: usize = 16;
 
 /// The rational Bézier segments of a clamped NURBS curve; none when its numbers don't make a curve.
 pub(super) fn segments(order: usize, points: &[Point2], weights: &[f64], knots: &[f64]) -> Vec<Primitive> {
-    let whole = (2..=MOST_ORDER).contains(&order)
-        && points.len() >= order
-        && weights.len() == points.len()
-        && knots.len() == points.len() + order;
+    if weights.len() != points.len() {
+        return Vec::new();
+    }
+    let control: Vec<[f64; 3]> = points.iter().zip(weights).map(|(p, &w)| [p.x * w, p.y * w, w]).collect();
+    let of = |points: Vec<[f64; 3]>| {
+        let bounds = derivative_bounds(&points);
+        Primitive::Rational { points, bounds }
+    };
+    beziers(order, &control, knots).into_iter().map(of).collect()
+}
+
+/// Control points of the Bézier segments of a B-spline, one for every knot interval that is not empty; none when the
+/// numbers don't make a curve.
+pub(super) fn beziers<const D: usize>(
+    order: usize,
+    control: &[[f64; D]],
+    knots: &[f64],
+) -> Vec<Vec<[f64; D]>> {
+    let whole =
+        (2..=MOST_ORDER).contains(&order) && control.len() >= order && knots.len() == control.len() + order;
     if !whole {
         return Vec::new();
     }
-    let mut control: Vec<[f64; 3]> =
-        points.iter().zip(weights).map(|(p, &w)| [p.x * w, p.y * w, w]).collect();
-    let mut knots = knots.to_vec();
-    fill_knots(order, &mut control, &mut knots);
-    control
-        .windows(order)
-        .step_by(order - 1)
-        .map(|segment| {
-            let points = segment.to_vec();
-            let bounds = derivative_bounds(&points);
-            Primitive::Rational { points, bounds }
-        })
-        .collect()
+    let spans = order - 1..control.len();
+    spans.filter_map(|span| segment(order, control, knots, span)).collect()
 }
 
-/// Inserts every inner knot until its multiplicity is order - 1.
-#[allow(clippy::float_cmp)]
-fn fill_knots(order: usize, control: &mut Vec<[f64; 3]>, knots: &mut Vec<f64>) {
-    let mut i = order;
-    while let Some(&knot) = knots.get(i).filter(|_| i < control.len()) {
-        let multiplicity = knots.iter().filter(|&&k| k == knot).count();
-        for _ in multiplicity..order - 1 {
-            insert(order, control, knots, knot);
+/// The segment over knot interval `span`: point j is the polar form with j arguments at the interval's end and the rest
+/// at its start.
+fn segment<const D: usize>(
+    order: usize,
+    control: &[[f64; D]],
+    knots: &[f64],
+    span: usize,
+) -> Option<Vec<[f64; D]>> {
+    let (start, end) = (*knots.get(span)?, *knots.get(span + 1)?);
+    let local = control.get(span + 1 - order..=span)?;
+    let around = knots.get(span + 2 - order..span + order)?;
+    let point = |j: usize| {
+        let arguments = (1..order).map(|i| if i + j < order { start } else { end });
+        polar(local, around, arguments)
+    };
+    (end > start).then(|| (0..order).map(point).collect())
+}
+
+/// The polar form of one interval by de Boor's scheme, an argument for every round. `around` are the 2 (order - 1) knots
+/// about the interval.
+fn polar<const D: usize>(
+    local: &[[f64; D]],
+    around: &[f64],
+    arguments: impl Iterator<Item = f64>,
+) -> [f64; D] {
+    let mut work = [[0.0; D]; MOST_ORDER];
+    let n = local.len().min(MOST_ORDER);
+    for (slot, p) in work.iter_mut().zip(local) {
+        *slot = *p;
+    }
+    for (round, argument) in (1..n).zip(arguments) {
+        for j in (round..n).rev() {
+            let key = |i: usize| around.get(i).copied().unwrap_or(argument);
+            let (low, high) = (key(j - 1), key(j + n - 1 - round));
+            let alpha = if high > low { (argument - low) / (high - low) } else { 0.0 };
+            let (before, here) = (work[j - 1], work[j]);
+            work[j] = core::array::from_fn(|c| (1.0 - alpha) * before[c] + alpha * here[c]);
         }
-        i += multiplicity.max(order - 1);
     }
-}
-
-/// Boehm's knot insertion.
-fn insert(order: usize, control: &mut Vec<[f64; 3]>, knots: &mut Vec<f64>, knot: f64) {
-    let span = knots.partition_point(|&k| k <= knot).saturating_sub(1);
-    let degree = order - 1;
-    let old = control.clone();
-    let at = |i: usize| old.get(i).copied().unwrap_or_default();
-    let key = |i: usize| knots.get(i).copied().unwrap_or_default();
-    control.clear();
-    for i in 0..=old.len() {
-        let alpha = if i + degree <= span {
-            1.0
-        } else if i > span {
-            0.0
-        } else {
-            let (a, b) = (key(i), key(i + degree));
-            if b > a { (knot - a) / (b - a) } else { 0.0 }
-        };
-        let (p, q) = (at(i.min(old.len() - 1)), at(i.saturating_sub(1)));
-        control.push([0, 1, 2].map(|c| alpha * p[c] + (1.0 - alpha) * q[c]));
-    }
-    knots.insert(span + 1, knot);
+    work[n.saturating_sub(1)]
 }
 
 /// Point and derivatives of a rational Bézier segment.
@@ -149,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn knot_insertion_keeps_the_curve() {
+    fn segments_are_the_curve() {
         let points: Vec<Point2> = (0..7)
             .map(|i| {
                 let (s, c) = sin_cos(f64::from(i));

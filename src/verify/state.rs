@@ -41,6 +41,9 @@ pub(super) fn check(case: &Case<'_>, placed: &Placed<'_>) -> Vec<Finding> {
     if let Some(text) = coolant(case, placed) {
         say(&codes::NOT_READY, text);
     }
+    if let Some(text) = work_offset(case, placed) {
+        say(&codes::WRONG_OFFSET, text);
+    }
     if let Some(text) = feed(case, placed) {
         say(&codes::WRONG_FEED, text);
     }
@@ -55,6 +58,17 @@ fn tool(case: &Case<'_>, placed: &Placed<'_>) -> Option<Text> {
     (got != 0 && got != number).then(|| {
         Text::default().words(format!("a cut with tool {got} in place of {number} ({})", wanted.name))
     })
+}
+
+/// The work offset in force is the one asked for, where the post selects one.
+fn work_offset(case: &Case<'_>, placed: &Placed<'_>) -> Option<Text> {
+    let wanted = case.target.capabilities.work_offset?;
+    let said = match placed.cut.work_offset {
+        Some(got) if got == wanted => return None,
+        Some(got) => format!("a cut in work offset {got} in place of {wanted}"),
+        None => format!("a cut before work offset {wanted} is selected"),
+    };
+    Some(Text::default().words(said))
 }
 
 /// The coolant that was asked for flows, as far as the control can switch it; an `INSERT` may have switched more on.
@@ -118,7 +132,8 @@ fn asked(case: &Case<'_>, placed: &Placed<'_>) -> Option<super::plan::Asked> {
 fn is_plain(case: &Case<'_>, placed: &Placed<'_>) -> bool {
     let Some(block) = placed.block.and_then(|b| case.target.blocks.get(b)) else { return false };
     let record = block.record.and_then(|r| case.cl.records.get(r as usize)).map(|r| &r.kind);
-    block.piece.is_some() || matches!(record, Some(RecordKind::Linear(_) | RecordKind::Circle(_)))
+    block.piece.is_some()
+        || matches!(record, Some(RecordKind::Linear(_) | RecordKind::Circle(_) | RecordKind::Spline(_)))
 }
 
 fn feed(case: &Case<'_>, placed: &Placed<'_>) -> Option<Text> {

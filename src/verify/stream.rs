@@ -159,6 +159,7 @@ fn point(record: &Record) -> Option<Point3> {
     match &record.kind {
         RecordKind::From(p) | RecordKind::Rapid(p) | RecordKind::Linear(p) => Some(*p),
         RecordKind::Circle(circle) => Some(circle.to),
+        RecordKind::Spline(spline) => Some(spline.end()),
         _ => None,
     }
 }

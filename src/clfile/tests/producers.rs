@@ -47,19 +47,24 @@ fn nx_helices_turns_and_lines_without_goto() {
 }
 
 #[test]
-fn nx_curves_pass_through_their_ends_within_tolerance() {
-    // A straight curve takes one line; a bent one stays within 0.01 mm of its Bézier.
+fn nx_curves_start_where_the_tool_is_and_keep_their_knots() {
     let straight = "NURBS/\nKNOT/1.0\nCNTRL/10,1,5\nCNTRL/10,2,5\nCNTRL/10,3,5\nPAINT/COLOR,31\nGOTO/0,0,5";
     let (cl, codes) = read_as(&framed(straight), Some(Producer::Nx), false);
-    assert_eq!((kinds(&cl).as_str(), codes.as_slice()), ("RLL", ["N1013"].as_slice()));
-    let bent = "NURBS/\nKNOT/0.5,1.0\nCNTRL/10,5,5\nCNTRL/20,5,5\nCNTRL/20,20,5\nCNTRL/30,30,5";
+    assert_eq!((kinds(&cl).as_str(), codes.as_slice()), ("RSL", [""; 0].as_slice()));
+    let bent = "NURBS/\nKNOT/0.25\nKNOT/0.5,1.0\nCNTRL/10,5,5\nCNTRL/20,5,5\nCNTRL/20,20,6\nCNTRL/25,25,5\nCNTRL/30,30,5";
     let (cl, _) = read_as(&framed(bent), Some(Producer::Nx), false);
-    let points: Vec<Point3> = cl
-        .records
-        .iter()
-        .filter_map(|r| if let RecordKind::Linear(p) = r.kind { Some(p) } else { None })
-        .collect();
-    assert!(points.len() > 8 && near(*points.last().unwrap(), [30.0, 30.0, 5.0]));
+    let spline =
+        cl.records.iter().find_map(|r| if let RecordKind::Spline(s) = &r.kind { Some(s) } else { None });
+    let spline = spline.expect("a spline");
+    assert_eq!(
+        (spline.points()[0], spline.end()),
+        (Point3::new(10.0, 0.0, 5.0), Point3::new(30.0, 30.0, 5.0))
+    );
+    assert_eq!(spline.knots(), [0.0, 0.0, 0.0, 0.0, 0.25, 0.5, 1.0, 1.0, 1.0, 1.0]);
+    // A curve of no length moves nothing.
+    let (cl, codes) =
+        read_as(&framed("NURBS/\nKNOT/1\nCNTRL/10,0,5\nCNTRL/10,0,5\nCNTRL/10,0,5"), None, false);
+    assert_eq!((kinds(&cl).as_str(), codes.as_slice()), ("R", [""; 0].as_slice()));
 }
 
 #[test]

@@ -79,6 +79,13 @@ pub const NOT_AS_LOWERED: Code = Code {
     page: include_str!("../../../docs/diagnostics/E0811.md"),
 };
 
+/// the part would be cut in another work offset.
+pub const WRONG_OFFSET: Code = Code {
+    id: "E0812",
+    title: "a cut in another work offset than asked for",
+    page: include_str!("../../../docs/diagnostics/E0812.md"),
+};
+
 /// the cutter goes into a finished surface.
 pub const SURFACE_GOUGED: Code = Code {
     id: "E0820",
@@ -106,6 +113,7 @@ pub const ALL: &[&Code] = &[
     &LEFT_TO_SETTINGS,
     &CANNOT_PROVE,
     &NOT_AS_LOWERED,
+    &WRONG_OFFSET,
     &SURFACE_GOUGED,
     &SURFACE_LEFT,
 ];

@@ -165,4 +165,34 @@ fn nurbs_are_spelled_as_the_control_wants() {
             "G1 X2."
         ]
     );
+    let sinumerik = Sheet::at("sinumerik", 0, 0).nurbs(nurbs(1_000)).nurbs(back(1_000)).line(2_000, 1_000);
+    let [first, second, third, fourth] = ["BSPLINE SD=3 F300", "X1 Y0 PW=1", "X1 Y1 PW=0.5", "X0 Y1 PW=1"];
+    let again = ["G1", "BSPLINE SD=3", "X1 Y1 PW=1", "X1 Y0 PW=1", "X0 Y0 PW=1", "G1 X2 Y1"];
+    assert_eq!(sinumerik.rest(), [&[first, second, third, fourth][..], &again].concat());
+}
+
+/// From (0, 1) back to (0, 0).
+fn back(scale: i64) -> Nurbs {
+    let p = |x: i64, y: i64| (Position { x: x * scale, y: y * scale, z: 0, r: 0 }, 1.0);
+    let knots = vec![0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0];
+    Nurbs { order: 4, points: vec![p(0, 1), p(1, 1), p(1, 0), p(0, 0)], knots }
+}
+
+#[test]
+fn curves_that_climb_say_their_heights() {
+    let p = |x: i64, z: i64| (Position { x, y: 0, z, r: 0 }, 1.0);
+    let knots = vec![0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0];
+    let climb = Nurbs { order: 4, points: vec![p(0, 0), p(1_000, 0), p(2_000, 500), p(3_000, 1_000)], knots };
+    let fanuc = Sheet::at("fanuc", 0, 0).nurbs(climb.clone()).line(0, 0);
+    let points = [
+        "G6.2 P4 K0. X0. Y0. R1. F300.",
+        "K0. X1. Y0. Z0. R1.",
+        "K0. X2. Y0. Z0.5 R1.",
+        "K0. X3. Y0. Z1. R1.",
+    ];
+    assert_eq!(fanuc.rest()[..4], points);
+    // The line after it goes on at the curve's height.
+    assert_eq!(fanuc.rest().last().map(String::as_str), Some("G1 X0."));
+    let sinumerik = Sheet::at("sinumerik", 0, 0).nurbs(climb);
+    assert_eq!(sinumerik.rest()[1..], ["X1 Y0 Z0 PW=1", "X2 Y0 Z0.5 PW=1", "X3 Y0 Z1 PW=1"]);
 }

@@ -338,7 +338,7 @@ impl<'a> Reader<'a> {
             parked: false,
             length_offset: self.tool != 0,
             coolant: self.coolant,
-            work_offset: 0,
+            work_offset: None,
             in_cycle: self.in_cycle,
             path_tolerance: 0.0,
         };

@@ -82,7 +82,7 @@ impl Reader<'_> {
         else {
             return out.fault("CYCL DEF 247 without the preset's number Q339");
         };
-        let number = number as u16 + 1;
+        let number = Some(number as u16);
         if self.state.work_offset != number {
             self.state.known = [false; 4];
         }

@@ -11,6 +11,8 @@ use crate::readback::{EventKind, FeedMode, Follow, MachineSetup, Washing};
 pub(super) const INCH: f64 = 25.4;
 /// Words that are never left unused.
 const ALWAYS_USED: u32 = bit(b'N') | bit(b'F') | bit(b'S') | bit(b'T') | bit(b'O');
+/// Work offsets that have a code of their own where further ones are counted by P: G54 to G59.
+const PLAIN_OFFSETS: u16 = 6;
 /// Words that hold lengths.
 const LENGTHS: &[u8] = b"XYZIJKUVW";
 const LENGTH_BITS: u32 = bit(b'X') | bit(b'Y') | bit(b'Z') | bit(b'I') | bit(b'J') | bit(b'K') | bit(b'R');
@@ -254,14 +256,14 @@ impl<'a> Machine<'a> {
                         self.rules.most_offsets
                     ));
                 }
-                value as u16 + if letter == b'P' { 100 } else { 0 }
+                value as u16 + if letter == b'P' { PLAIN_OFFSETS } else { 0 }
             }
             Some(number) => number,
         };
-        if self.state.work_offset != number {
+        if self.state.work_offset != Some(number) {
             self.state.known = [false; 4];
         }
-        self.state.work_offset = number;
+        self.state.work_offset = Some(number);
     }
 
     fn coolant(&mut self, plan: &Plan) {

@@ -151,7 +151,7 @@ impl Machine<'_> {
                 ),
             );
         }
-        if self.rules.work_offset && self.state.work_offset == 0 {
+        if self.rules.work_offset && self.state.work_offset.is_none() {
             self.assume(
                 6,
                 out,

@@ -5,9 +5,9 @@ use super::codes::{Mode, Plane};
 use super::machine::Machine;
 use super::motion::Target;
 use super::state::Plan;
-use crate::geom::Point2;
+use crate::geom::{Point2, Point3};
 use crate::readback::out::Out;
-use crate::readback::{FeedMode, Follow, TracePath};
+use crate::readback::{FeedMode, Follow, SpaceCurve, TracePath};
 
 /// Most control points of one curve; a control's memory is smaller.
 const MOST_POINTS: usize = 1_000_000;
@@ -16,7 +16,7 @@ const MOST_POINTS: usize = 1_000_000;
 #[derive(Debug, Default)]
 pub(super) struct Open {
     order: usize,
-    points: Vec<Point2>,
+    points: Vec<Point3>,
     weights: Vec<f64>,
     knots: Vec<f64>,
     /// Knot-only blocks have begun (Fanuc).
@@ -47,6 +47,8 @@ impl Machine<'_> {
             return true;
         }
         match plan.motion {
+            // A modal word that is in force already: the curve goes on.
+            Some(Mode::BSpline) if self.nurbs.open => self.spline_point(block, used, out),
             Some(Mode::BSpline) => self.open_spline(block, used, out),
             Some(Mode::NurbsPoints) => self.open_points(block, used, out),
             Some(Mode::NurbsKnots) => self.open_knots(block, used, out),
@@ -111,7 +113,7 @@ impl Machine<'_> {
         let order = self.small_integer(block, b'L', 3, used, out);
         self.nurbs.begin(order);
         self.nurbs.spoilt = !fine;
-        self.nurbs.points.push(Point2::new(self.state.position[0], self.state.position[1]));
+        self.nurbs.points.push(self.stands());
         *used |= bit(b'P');
         let weight = block.get(b'P').unwrap_or(1.0);
         self.nurbs.weights.push(weight);
@@ -150,8 +152,12 @@ impl Machine<'_> {
         if self.nurbs.points.len() == MOST_POINTS - 1 {
             out.fault(format!("a curve of {MOST_POINTS} control points"));
         }
-        self.nurbs.points.push(Point2::new(target.to[0], target.to[1]));
+        self.nurbs.points.push(Point3::new(target.to[0], target.to[1], target.to[2]));
         self.nurbs.weights.push(weight);
+        if target.moved[2] && !self.state.known[2] {
+            self.nurbs.spoilt = true;
+            out.fault("a curve that climbs from a height that is not known");
+        }
         self.arrive_at_point(target);
     }
 
@@ -178,13 +184,29 @@ impl Machine<'_> {
         self.hand_on(curve, knots, out);
     }
 
+    #[allow(clippy::float_cmp)]
     fn hand_on<S: Follow>(&mut self, curve: Open, knots: Vec<f64>, out: &mut Out<'_, S>) {
         let to = self.state.position;
         let c = to[super::motion::ROTARY];
-        let points: Vec<Point2> = curve.points.iter().map(|p| self.in_part(p.x, p.y, c)).collect();
         let order = u8::try_from(curve.order).unwrap_or(u8::MAX);
-        let path = TracePath::Nurbs { order, points, weights: curve.weights, knots };
-        self.emit(path, to, &Target { to, moved: [false; 4] }, false, out);
+        let weights = curve.weights;
+        let from = curve.points.first().map_or(to[2], |p| p.z);
+        let level = curve.points.windows(2).all(|pair| pair[0].z == pair[1].z);
+        let flat: Vec<Point2> = curve.points.iter().map(|p| self.in_part(p.x, p.y, c)).collect();
+        let path = if level {
+            TracePath::Nurbs { order, points: flat, weights, knots }
+        } else {
+            let lift = |(p, q): (Point2, &Point3)| Point3::new(p.x, p.y, q.z);
+            let points = flat.into_iter().zip(&curve.points).map(lift).collect();
+            TracePath::Space(Box::new(SpaceCurve { order, points, weights, knots }))
+        };
+        self.emit(path, [to[0], to[1], from, to[3]], &Target { to, moved: [false; 4] }, false, out);
+    }
+
+    /// Where the tool is.
+    fn stands(&self) -> Point3 {
+        let [x, y, z, _] = self.state.position;
+        Point3::new(x, y, z)
     }
 
     /// A small positive integer word, with its default.
@@ -224,7 +246,7 @@ impl Machine<'_> {
         };
         self.nurbs.begin(order);
         self.nurbs.spoilt = !fine;
-        self.nurbs.points.push(Point2::new(self.state.position[0], self.state.position[1]));
+        self.nurbs.points.push(self.stands());
         self.nurbs.weights.push(1.0);
         self.spline_point(block, used, out);
     }
@@ -232,15 +254,16 @@ impl Machine<'_> {
     /// A block without a control point ends a BSPLINE, before anything in it takes effect.
     pub(super) fn spline_over<S: Follow>(&mut self, block: &Block, plan: &Plan, out: &mut Out<'_, S>) {
         let open = self.nurbs.open && self.state.motion == Mode::BSpline;
-        if open && (plan.motion.is_some() || !(block.has(b'X') || block.has(b'Y'))) {
+        let over = plan.motion.map_or_else(|| !has_point(block), |mode| mode != Mode::BSpline);
+        if open && over {
             self.close_spline(out);
         }
     }
 
     fn spline_point<S: Follow>(&mut self, block: &Block, used: &mut u32, out: &mut Out<'_, S>) {
         let words = block.words.as_ref();
-        *used |= bit(b'X') | bit(b'Y');
-        if !block.has(b'X') && !block.has(b'Y') {
+        *used |= bit(b'X') | bit(b'Y') | bit(b'Z');
+        if !has_point(block) {
             return;
         }
         let weight = words.and_then(|w| w.weight).unwrap_or(1.0);
@@ -298,7 +321,7 @@ impl Machine<'_> {
 
     fn knot_block<S: Follow>(&mut self, block: &Block, used: &mut u32, out: &mut Out<'_, S>) {
         *used |= bit(b'K') | bit(b'R') | bit(b'X') | bit(b'Y') | bit(b'Z');
-        let point = block.has(b'X') || block.has(b'Y') || self.nurbs.points.is_empty();
+        let point = has_point(block) || self.nurbs.points.is_empty();
         if !point && !block.has(b'K') {
             return;
         }
@@ -327,10 +350,6 @@ impl Machine<'_> {
             return out.fault("alarm PS1004, a control point after the closing knots began");
         }
         let target = self.target(block, out);
-        if target.moved[2] && target.to[2] != self.state.position[2] {
-            self.nurbs.spoilt = true;
-            out.fault("Z changes along a curve, which this reader does not follow");
-        }
         let weight = block.get(b'R').unwrap_or(1.0);
         if weight <= 0.0 {
             self.nurbs.spoilt = true;
@@ -356,6 +375,11 @@ impl Machine<'_> {
             self.hand_on(curve, knots, out);
         }
     }
+}
+
+/// Whether the block says a control point.
+fn has_point(block: &Block) -> bool {
+    [b'X', b'Y', b'Z'].into_iter().any(|axis| block.has(axis))
 }
 
 /// What is wrong with a clamped knot vector of this order.

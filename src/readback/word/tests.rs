@@ -315,6 +315,13 @@ fn a_nurbs_of_fanuc_obeys_its_knot_rules() {
         let got = trace("fanuc", &fanuc(&good.replacen(from, to, 1))).faults;
         assert!(got.iter().any(|f| f.line == line && f.message.contains(words)), "{words}: {got:#?}");
     }
+    let climbing =
+        good.replace("X12. Y2. R2.", "X12. Y2. Z7. R2.").replace("X10. Y4. R1.", "X10. Y4. Z9. R1.");
+    let moves = clean("fanuc", &fanuc(&climbing));
+    let TracePath::Space(curve) = &moves[1].path else { panic!("{:?}", moves[1]) };
+    assert_eq!(curve.points.iter().map(|p| p.z).collect::<Vec<_>>(), [5.0, 5.0, 7.0, 9.0]);
+    assert_eq!((moves[1].z, moves[1].heights(), moves[1].end().z), ((5.0, 9.0), (5.0, 9.0), 9.0));
+    assert!(moves[1].length() > 7.0 && moves[1].length() < 8.0, "{}", moves[1].length());
     let got = trace("fanuc", &fanuc(&format!("G95 F0.1\n{good}"))).faults;
     assert!(got.iter().any(|f| f.message.contains("PS1006")), "{got:?}");
 }

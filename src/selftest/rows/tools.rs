@@ -94,8 +94,8 @@ fn spindle(trial: &Trial) -> Finding {
 }
 
 fn work_offset(trial: &Trial) -> Finding {
-    match trial.cuts().map(|m| m.work_offset).last() {
-        Some(0) | None => Finding::expressed("left to what is active on the control"),
+    match trial.cuts().last().and_then(|m| m.work_offset) {
+        None => Finding::expressed("left to what is active on the control"),
         Some(n) => Finding::right(format!("work offset {n} is selected")),
     }
 }

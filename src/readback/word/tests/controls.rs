@@ -111,11 +111,11 @@ fn work_offsets_must_be_selected() {
     let bare = |text: String| text.replace("G54", "");
     says("linuxcnc", &bare(linuxcnc("G1 X1")), "no work offset");
     let text = fanuc("G1 X1.");
-    assert_eq!(clean("fanuc", &text).last().map(|m| m.work_offset), Some(1));
+    assert_eq!(clean("fanuc", &text).last().and_then(|m| m.work_offset), Some(1));
     let moves = clean("haas", &fanuc("G154 P5\nG0 X1. Y1. Z1.\nG1 X2."));
-    assert_eq!(moves.last().map(|m| m.work_offset), Some(105));
+    assert_eq!(moves.last().and_then(|m| m.work_offset), Some(11));
     let moves = clean("centroid", &fanuc("G55\nG0 X1. Y1. Z1.\nG1 X2."));
-    assert_eq!(moves.last().map(|m| m.work_offset), Some(2));
+    assert_eq!(moves.last().and_then(|m| m.work_offset), Some(2));
 }
 
 #[test]
@@ -145,12 +145,12 @@ fn half_circles_by_radius_are_not_trusted() {
 #[test]
 fn further_work_offsets() {
     let selected = |control: &str, text: &str| {
-        let last = moves(trace(control, text)).pop().map(|m| m.work_offset);
+        let last = moves(trace(control, text)).pop().and_then(|m| m.work_offset);
         (last, said(control, text))
     };
     for (control, code, number) in [
-        ("fanuc", "G54.1 P48", 148),
-        ("haas", "G154 P99", 199),
+        ("fanuc", "G54.1 P48", 54),
+        ("haas", "G154 P99", 105),
         ("centroid", "E18", 18),
         ("centroid", "G55", 2),
     ] {

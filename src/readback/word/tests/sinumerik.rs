@@ -41,7 +41,9 @@ fn words_with_and_without_equals() {
     assert_eq!(line(&moves[2]).1, Point2::new(14.5, 5.0));
     assert!(close(line(&moves[3]).1.x, 12.5));
     assert!(
-        moves.iter().all(|m| m.length_offset && m.tool == 1 && m.path_tolerance == 0.0 && m.work_offset == 1)
+        moves
+            .iter()
+            .all(|m| m.length_offset && m.tool == 1 && m.path_tolerance == 0.0 && m.work_offset == Some(1))
     );
 }
 
@@ -163,6 +165,13 @@ fn a_bspline_starts_where_the_tool_is_and_ends_with_the_next_motion() {
     assert_eq!(points[0], Point2::new(10.0, 0.0));
     assert_eq!(weights, &[1.0, 1.0, 2.0, 1.0, 1.0]);
     assert_eq!(knots, &[0.0, 0.0, 0.0, 0.0, 1.0, 2.0, 2.0, 2.0, 2.0]);
+    // The word is modal: said again it goes on, and only another motion ends the curve.
+    let moves = fine(
+        "BSPLINE SD=3 F50\nX11 Y1\nBSPLINE\nX12 Y3\nX14 Y3 Z7\nX15 Y0 Z8\nG1\nBSPLINE\nX16 Y0\nX17 Y1\nX18 Y1",
+    );
+    let TracePath::Space(curve) = &moves[0].path else { panic!("{:?}", moves[0]) };
+    assert_eq!((curve.points.len(), curve.points[4].z, moves[0].z.1, moves.len()), (5, 8.0, 8.0, 2));
+    assert_eq!(moves[1].start(), crate::geom::Point3::new(15.0, 0.0, 8.0));
     let line_of = run_it(&program("BSPLINE SD=3 F50\nX11 Y1\nX12 Y3\nX14 Y3\nX15 Y0\nG1 X16")).events[2].line;
     assert_eq!(line_of, 12);
     for (body, words) in [
