@@ -152,8 +152,9 @@ fn blossom(knots: &[f64], span: usize, degree: usize, k: usize) -> Vec<f64> {
         for j in (round..=degree).rev() {
             let (low, high) = (knots[span - degree + j], knots[span + 1 + j - round]);
             let share = (at - low) / (high - low);
-            for i in 0..n {
-                table[j][i] = table[j - 1][i] * (1.0 - share) + table[j][i] * share;
+            let before = table[j - 1].clone();
+            for (own, before) in table[j].iter_mut().zip(before) {
+                *own = before * (1.0 - share) + *own * share;
             }
         }
     }
@@ -260,8 +261,9 @@ fn casteljau(poles: &[Lifted], t: f64) -> Point3 {
     let mut line = poles.to_vec();
     for round in 1..line.len() {
         for k in 0..line.len() - round {
-            for c in 0..4 {
-                line[k][c] = line[k][c] * (1.0 - t) + line[k + 1][c] * t;
+            let next = line[k + 1];
+            for (own, next) in line[k].iter_mut().zip(next) {
+                *own = *own * (1.0 - t) + next * t;
             }
         }
     }
