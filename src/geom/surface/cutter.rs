@@ -77,6 +77,10 @@ impl Cutter {
     pub(super) fn disc(&self) -> f64 {
         self.disc
     }
+    /// Outward normal of its side: away from the axis, and along it.
+    pub(super) fn side_normal(&self) -> [f64; 2] {
+        [self.side[1], -self.side[0]]
+    }
     /// Radius of its end, mm: where the side begins.
     #[must_use]
     pub fn radius(&self) -> f64 {
@@ -127,12 +131,54 @@ impl Cutter {
         self.disc * beside + (beside * sin + n.z * cos).max(0.0) * ENDLESS
     }
 
+    /// How far `q`, seen from the reference point, is outside the core (below zero: how deep inside), with the outward unit
+    /// normal there.
+    pub(super) fn outside_core(&self, q: Vec3) -> (f64, Vec3) {
+        let beside = math::hypot(q.x, q.y);
+        let (d, [across, up]) = self.flat_distance(beside, q.z);
+        let e = if beside > 0.0 { [q.x / beside, q.y / beside] } else { [1.0, 0.0] };
+        (d, Vec3::new(e[0] * across, e[1] * across, up))
+    }
+
+    /// The same in the half plane of the profile.
+    fn flat_distance(&self, beside: f64, height: f64) -> (f64, [f64; 2]) {
+        let [sin, cos] = self.side;
+        let off = beside - self.disc;
+        // Along the side's line from the corner, and to its right.
+        let (along, right) = (off * sin + height * cos, off * cos - height * sin);
+        if right <= 0.0 && height >= 0.0 {
+            return if right >= -height { (right, [cos, -sin]) } else { (-height, [0.0, -1.0]) };
+        }
+        if off <= 0.0 && height < 0.0 {
+            return (-height, [0.0, -1.0]);
+        }
+        if along >= 0.0 {
+            return (right, [cos, -sin]);
+        }
+        let d = math::hypot(off, height);
+        if d > 0.0 { (d, [off / d, height / d]) } else { (0.0, [0.0, -1.0]) }
+    }
+
+    /// Curvature of the core's distance at such a point: about the axis, and in the plane of the profile.
+    pub(super) fn core_bend(&self, q: Vec3) -> [f64; 2] {
+        let beside = math::hypot(q.x, q.y);
+        let (d, [across, up]) = self.flat_distance(beside, q.z);
+        let round = if beside > 0.0 { across / beside } else { 0.0 };
+        let [sin, cos] = self.side;
+        let at_corner = up < 0.0 && across > 0.0 && across * sin + up * cos < -1e-12;
+        [round, if at_corner && d > 0.0 { 1.0 / d } else { 0.0 }]
+    }
+
     /// The reference point of the cutter whose tip is here.
     #[must_use]
     pub fn reference(&self, tip: Point3) -> Point3 {
         Point3::new(tip.x, tip.y, tip.z + self.lift)
     }
 }
+
+mod way;
+
+pub use way::extremes;
 
 #[cfg(test)]
 mod tests;

@@ -6,10 +6,12 @@
 //! that Newton's method over the rectangle gives the one minimum; where it is not, the leaf is cut up further.
 
 mod bend;
+mod near;
 mod place;
 mod quest;
 mod rest;
 mod search;
+mod slide;
 
 use core::cell::RefCell;
 
@@ -47,6 +49,8 @@ pub struct SurfaceTree {
     sure: Vec<(usize, Area)>,
     reach: f64,
     upright: bool,
+    /// Bounds of |r_uu|, |r_uv|, |r_vv| over each patch.
+    swings: Vec<[f64; 3]>,
 }
 
 /// Bounding box with children, or a leaf.
@@ -179,8 +183,9 @@ impl SurfaceTree {
     #[must_use]
     pub fn new(net: Net, reach: f64) -> SurfaceTree {
         let derivatives: Vec<Derivatives> = net.patches().iter().map(Derivatives::new).collect();
+        let swings = derivatives.iter().map(slide::swings).collect();
         let (nodes, leaves, sure) = (Vec::new(), Vec::new(), Vec::new());
-        let mut tree = SurfaceTree { net, derivatives, nodes, leaves, sure, reach, upright: true };
+        let mut tree = SurfaceTree { net, derivatives, nodes, leaves, sure, reach, upright: true, swings };
         let [rows, columns] = tree.net.size();
         tree.nodes.push(EMPTY);
         let root = tree.block((0, rows), (0, columns), reach);

@@ -49,8 +49,6 @@ pub(super) struct Search<'a, A> {
     facing: Option<Vec3>,
     /// Scores of at most this are of no interest.
     floor: f64,
-    /// A score above this ends the search.
-    ceiling: f64,
     accuracy: f64,
     /// Largest bound of what was given up.
     open: f64,
@@ -105,12 +103,16 @@ impl<'a, A: Aim> Search<'a, A> {
             spot: None,
             facing: None,
             floor: NOTHING,
-            ceiling: f64::INFINITY,
             accuracy,
             open: f64::NEG_INFINITY,
             budget: MOST_PIECES,
         }
     }
+    /// Scores of at most `floor` are of no interest.
+    pub(super) fn above(self, floor: f64) -> Search<'a, A> {
+        Search { floor: floor.max(NOTHING), ..self }
+    }
+
     /// No point of the surface scores more than this (the floor, where all score less).
     pub(super) fn bound(&self) -> f64 {
         self.best.max(self.floor).max(self.open) + if self.best > self.floor { self.accuracy } else { 0.0 }
@@ -128,7 +130,7 @@ impl<'a, A: Aim> Search<'a, A> {
     pub(super) fn run(&mut self) {
         let mut open = BinaryHeap::from([Open { bound: f64::INFINITY, part: Part::Node(0) }]);
         while let Some(Open { bound, part }) = open.pop() {
-            if self.best > self.ceiling || bound <= self.limit() {
+            if bound <= self.limit() {
                 return;
             }
             match part {
