@@ -17,7 +17,7 @@ use std::sync::Arc;
 
 use crate::arena::{Arena, Handle};
 use crate::geom::curve::CurveRef;
-use crate::geom::surface::{SurfaceTree, Track};
+use crate::geom::surface::{Cutter, SurfaceTree, Track};
 use crate::geom::{Point3, Side, Vec3};
 use crate::ir::{Band, Coolant, Feed, Interpolation, Origin, Spindle, Tool};
 use crate::units::LengthUnit;
@@ -99,13 +99,15 @@ pub struct Guard {
     pub bottom: f64,
 }
 
-/// A surface that a ball-end cutter finishes.
+/// A surface that a cutter finishes.
 #[derive(Debug, Clone)]
 pub struct Finish {
     /// The surface.
     pub tree: Arc<SurfaceTree>,
     /// Radius of the cutter, mm.
     pub radius: f64,
+    /// The cutter itself.
+    pub cutter: Cutter,
     /// Stock to leave, mm.
     pub leave: f64,
     /// Largest height of the cusps between passes, mm, where that was asked for.
@@ -193,14 +195,14 @@ pub struct Circle {
     pub tolerance: f64,
 }
 
-/// A pass of a ball-end cutter over a surface, or the way from one pass to the next.
+/// A pass over a surface, or the way from one pass to the next.
 #[derive(Debug, Clone)]
 pub struct Pass {
-    /// The exact curve of the ball's centre.
+    /// The exact curve of the cutter's reference point (a ball's centre).
     pub track: Track,
-    /// Height of the centre above the tip, mm.
+    /// Height of that point above the tip, mm.
     pub tip: f64,
-    /// How far into the surface and out of it the path may be, as seen by the ball.
+    /// How far into the surface and out of it the path may be, as seen by the cutter: about the track's own hull.
     pub band: Band,
     /// How far the path may be to the side of the track, mm, at equidistant parameters from 0 to 1: what the distance
     /// to its neighbours leaves. Empty: as far as it likes.

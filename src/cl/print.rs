@@ -295,8 +295,12 @@ impl Printer<'_> {
     /// A pass over a surface, as points whose chords stay near the exact track of the tip.
     fn pass(&mut self, pass: &Pass) {
         let what = match pass.track.guide {
-            Guide::Parameter { axis: 0, value, .. } => format!("ALONG U AT V {}", number(value)),
-            Guide::Parameter { value, .. } => format!("ALONG V AT U {}", number(value)),
+            Guide::Parameter { axis: 0, value, .. } | Guide::Over { axis: 0, value, .. } => {
+                format!("ALONG U AT V {}", number(value))
+            }
+            Guide::Parameter { value, .. } | Guide::Over { value, .. } => {
+                format!("ALONG V AT U {}", number(value))
+            }
             Guide::Line { .. } => "OVER A STRAIGHT LINE".to_owned(),
             Guide::Curve(_) => "OVER A CURVE".to_owned(),
         };

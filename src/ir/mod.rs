@@ -12,7 +12,7 @@
 use crate::arena::{Arena, Handle};
 use crate::geom::cam::Cam;
 use crate::geom::curve::CurveRef;
-use crate::geom::surface::Net;
+use crate::geom::surface::{Cutter, Net};
 use crate::geom::{Point3, Side};
 use crate::source::Span;
 use crate::units::{Angle, LengthUnit};
@@ -157,6 +157,27 @@ pub struct Tool {
 }
 
 impl Tool {
+    /// The cutter as a solid; `None` for drills, cutters with a sloping bottom, and tapered ones without an angle.
+    #[must_use]
+    pub fn solid(&self) -> Option<Cutter> {
+        const AGREES: f64 = 1e-6;
+        let radius = self.diameter / 2.0;
+        let [e, f, alpha, beta, _] = if self.profile == [0.0; 5] {
+            [radius - self.corner, self.corner, 0.0, 0.0, 0.0]
+        } else {
+            self.profile
+        };
+        if alpha != 0.0 || e < -AGREES || (f - self.corner).abs() > AGREES {
+            return None;
+        }
+        let straight = beta == 0.0 && (e + self.corner - radius).abs() <= AGREES;
+        match self.kind {
+            CutterKind::Ball if straight => Some(Cutter::ball(radius)),
+            CutterKind::Flat | CutterKind::Bull if straight => Some(Cutter::bull(radius, self.corner)),
+            CutterKind::Taper if beta > 0.0 => Some(Cutter::taper(e.max(0.0), f, self.corner, beta)),
+            _ => None,
+        }
+    }
     /// A flat end mill of which no more is known than its diameter in mm and its number.
     #[must_use]
     pub fn flat(name: impl Into<String>, diameter: f64, number: Option<u32>, origin: Handle<Origin>) -> Tool {

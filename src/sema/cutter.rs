@@ -90,7 +90,11 @@ impl Analyser<'_> {
                 Shape::plain(CutterKind::Bull, d, r)
             }
             Some("DRILL") => Shape::plain(CutterKind::Drill, d, 0.0),
-            Some("TAPER") => Shape::plain(CutterKind::Taper, d, r),
+            Some("TAPER") => {
+                let angle = radians(m.number("angle").unwrap_or(0.0));
+                let plain = Shape::plain(CutterKind::Taper, d, r);
+                Shape { profile: [plain.profile[0], plain.profile[1], 0.0, angle, 0.0], ..plain }
+            }
             _ => Shape::plain(CutterKind::Flat, d, r),
         };
         self.corner_fits(m, d, shape.corner)?;
@@ -100,7 +104,10 @@ impl Analyser<'_> {
     fn by_seven(&mut self, m: &Matched, d: f64) -> Option<Shape> {
         let r = m.number("r").unwrap_or(0.0);
         let alpha = self.slope(m, "a")?;
-        let beta = self.slope(m, "b")?;
+        let beta = match m.number("angle") {
+            Some(angle) if m.number("b").is_none() => radians(angle),
+            _ => self.slope(m, "b")?,
+        };
         self.corner_fits(m, d, r)?;
         let e = m.number("e").unwrap_or(d / 2.0 - r);
         let f = m.number("f").unwrap_or(r);

@@ -160,7 +160,7 @@ impl Analyser<'_> {
     pub(super) fn surfac(&mut self, m: &Matched, name: Option<String>) {
         let tool = self.ready("SURFAC", m);
         let spacing = self.spacing(m);
-        let tool = tool.and_then(|tool| self.ball(m, tool));
+        let tool = tool.and_then(|tool| self.finisher(m, tool, spacing));
         let Some(Entity::Net(net)) = m.entity("net") else { return };
         let net = *net;
         let (Some(tool), Some(spacing)) = (tool, spacing) else { return };
@@ -231,6 +231,47 @@ impl Analyser<'_> {
         cusp.map(Spacing::Cusp)
     }
 
+    /// The cutter, if it can finish a surface so.
+    fn finisher(
+        &mut self,
+        m: &Matched,
+        tool: Handle<Tool>,
+        spacing: Option<Spacing>,
+    ) -> Option<Handle<Tool>> {
+        let cutter = &self.program.tools[tool];
+        let solid = cutter.solid();
+        if solid.is_some_and(|s| s.is_ball()) {
+            return Some(tool);
+        }
+        let by_cusp = matches!(spacing, Some(Spacing::Cusp(_))) || along(m) == Along::IsoCusp;
+        let (message, help) = match solid {
+            Some(_) if !by_cusp => return Some(tool),
+            Some(_) => (
+                format!("heights of cusps are for ball-end cutters, and {} is none", cutter.name),
+                "give the distance of passes: `STEP, 0.5`, with U, V, X or Y",
+            ),
+            None if cutter.kind == CutterKind::Taper => (
+                format!(
+                    "the shape of {} is not known: a tapered cutter has an angle and a level bottom",
+                    cutter.name
+                ),
+                "give its angle: `CUTTER/ TAPER, 6, 1, ANGLE, 5`",
+            ),
+            None => (
+                format!(
+                    "{} does not finish surfaces: its shape is none that rests on its corner",
+                    cutter.name
+                ),
+                "ball-end, flat, bull-nose and tapered cutters do: `CUTTER/ BULL, 10, 1`",
+            ),
+        };
+        let declared = self.program.origins[cutter.origin].span;
+        self.report(
+            Diagnostic::new(&planning::NO_BALL, m.word, message).label(declared, "the cutter").help(help),
+        );
+        None
+    }
+
     /// The cutter, if it is a ball.
     fn ball(&mut self, m: &Matched, tool: Handle<Tool>) -> Option<Handle<Tool>> {
         let cutter = &self.program.tools[tool];
@@ -238,8 +279,7 @@ impl Analyser<'_> {
             return Some(tool);
         }
         let declared = self.program.origins[cutter.origin].span;
-        let message =
-            format!("{} is no ball-end cutter: only those finish surfaces in this version", cutter.name);
+        let message = format!("{} is no ball-end cutter: only those rough a surface so", cutter.name);
         let help =
             format!("declare one: `CUTTER/ BALL, {}`", self.show_length(cutter.diameter).replace(' ', ""));
         self.report(

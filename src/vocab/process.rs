@@ -28,6 +28,13 @@ const CUTTER_OPTIONS: &[Choices] = &[
         false,
         "",
     ),
+    with(
+        "angle",
+        &[word("ANGLE", "angle of the side to the axis (TAPER)")],
+        &[value("angle", Kind::Number(Dim::ANGLE, Range::Between(0.0, 80.0)), "angle")],
+        false,
+        "0",
+    ),
     with("length", &[word("LENGTH", "gauge length")], &[value("length", POSITIVE, "length")], false, ""),
     with(
         "stick",
@@ -74,7 +81,7 @@ const CUTTER: &[Form] = &[
         &[
             Item::Word("kind", KINDS),
             value("d", POSITIVE, "diameter"),
-            optional("r", NOT_NEGATIVE, "corner radius (BULL), or angle of the side (TAPER) as `b`"),
+            optional("r", NOT_NEGATIVE, "corner radius (BULL, TAPER)"),
         ],
         CUTTER_OPTIONS,
     ),

@@ -10,7 +10,7 @@
 
 use super::drop::{Contact, drop_ball};
 use super::tree::SurfaceTree;
-use crate::geom::{Point3, Vec3};
+use crate::geom::{Point3, Vec2, Vec3};
 use crate::math;
 
 /// A cutter.
@@ -63,6 +63,18 @@ impl Cutter {
     pub fn grown(&self, by: f64) -> Cutter {
         Cutter { corner: self.corner + by, ..*self }
     }
+    /// A cutter inside of this one, everywhere at least `by` mm from its hull, and how far above this one's reference point
+    /// its own is; `None` where nothing is left.
+    #[must_use]
+    pub fn shrunk(&self, by: f64) -> Option<(Cutter, f64)> {
+        if by <= self.corner {
+            return Some((Cutter { corner: self.corner - by, ..*self }, 0.0));
+        }
+        let [sin, cos] = self.side;
+        let sharp = by - self.corner;
+        let disc = self.disc - sharp * (1.0 - sin) / cos;
+        (disc >= 0.0).then(|| (Cutter { corner: 0.0, disc, ..*self }, sharp))
+    }
     /// Radius of the ball that rounds it, mm.
     #[must_use]
     pub fn corner(&self) -> f64 {
@@ -76,6 +88,11 @@ impl Cutter {
     /// Radius of the core's disc, mm.
     pub(super) fn disc(&self) -> f64 {
         self.disc
+    }
+    /// From the point where it touches a surface to its axis, in plan, mm; `n` is the plan part of the surface's normal.
+    #[must_use]
+    pub fn touches_beside(&self, n: Vec2) -> Vec2 {
+        n.try_normalize(0.0).map_or_else(Vec2::zeros, |e| e * self.disc + n * self.corner)
     }
     /// Outward normal of its side: away from the axis, and along it.
     pub(super) fn side_normal(&self) -> [f64; 2] {

@@ -1,11 +1,13 @@
-//! Tracks: the exact curve of a ball cutter's centre along a pass over a surface.
+//! Tracks: the exact curve of a cutter's reference point (a ball's centre) along a pass over a surface.
 //!
 //! A track is never sampled beforehand: it answers where the cutter touches at any parameter. Where the ball set down on
 //! its guide would gouge elsewhere, it is lifted until it rests.
 
 use std::sync::Arc;
 
+use super::cutter::Cutter;
 use super::drop::{Contact, TOUCHES, drop_ball};
+use super::rim::Rim;
 use super::tree::{Foot, SurfaceTree};
 use crate::geom::{Point2, Point3};
 
@@ -28,17 +30,30 @@ pub enum Guide {
         /// Last point, mm.
         to: Point2,
     },
+    /// A parameter line of the net and its rim in plan: the axis of the cutter runs over it.
+    Over {
+        /// 0: along u at constant v; 1: along v at constant u.
+        axis: usize,
+        /// The constant parameter.
+        value: f64,
+        /// First and last value of the other, in the direction of travel.
+        range: (f64, f64),
+        /// What the plan goes on by beyond the net.
+        rim: Rim,
+    },
     /// A curve in the net's parameters, along which the point of contact runs: cubic through these places.
     Curve(Arc<Vec<[f64; 2]>>),
 }
 
-/// The centre curve of a ball over a surface.
+/// The curve of a cutter's reference point over a surface.
 #[derive(Debug, Clone)]
 pub struct Track {
     /// The surface.
     pub tree: Arc<SurfaceTree>,
-    /// Radius of the ball, with what is to be left on the surface, mm.
+    /// Radius of the ball that rounds the cutter, with what is to be left on the surface, mm.
     pub radius: f64,
+    /// The cutter, with the same hull.
+    pub cutter: Cutter,
     /// What is followed; the parameter runs from 0 to 1.
     pub guide: Guide,
 }
@@ -56,7 +71,13 @@ impl Track {
             }
             Guide::Line { from, to } => {
                 let p = from + (to - from) * t;
-                drop_ball(&self.tree, self.radius, p.x, p.y, hint)
+                self.cutter.drop(&self.tree, p.x, p.y, hint)
+            }
+            Guide::Over { axis, value, range, rim } => {
+                let along = range.0 + (range.1 - range.0) * t;
+                let uv = if *axis == 0 { [along, *value] } else { [*value, along] };
+                let p = rim.place(self.tree.net(), uv);
+                self.cutter.drop(&self.tree, p.x, p.y, hint)
             }
             Guide::Curve(places) => self.over(cubic(places, t)),
         }
@@ -91,9 +112,12 @@ impl Track {
                 Guide::Parameter { axis: *axis, value: *value, range: (range.1, range.0) }
             }
             Guide::Line { from, to } => Guide::Line { from: *to, to: *from },
+            Guide::Over { axis, value, range, rim } => {
+                Guide::Over { axis: *axis, value: *value, range: (range.1, range.0), rim: *rim }
+            }
             Guide::Curve(places) => Guide::Curve(Arc::new(places.iter().rev().copied().collect())),
         };
-        Track { tree: Arc::clone(&self.tree), radius: self.radius, guide }
+        Track { tree: Arc::clone(&self.tree), guide, ..*self }
     }
 }
 

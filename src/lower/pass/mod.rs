@@ -17,7 +17,8 @@ use super::contour::cannot_fit;
 use super::fit::ribbon;
 use crate::cl::{Cl, Pass, RecordKind};
 use crate::diag::Sink;
-use crate::geom::surface::swept::{Question, extremes};
+use crate::geom::surface::cutter::extremes;
+use crate::geom::surface::swept::Question;
 use crate::geom::surface::{Contact, Foot, Guide, Track};
 use crate::geom::{Point2, Point3};
 use crate::target::Capabilities;
@@ -80,7 +81,7 @@ fn no_pass(
     let p = trouble.at;
     let place = format!("({:.4}, {:.4}, {:.4}) mm", p.x, p.y, p.z);
     let message = if trouble.lost {
-        format!("the pass loses the surface near {place}: the ball touches nothing there")
+        format!("the pass loses the surface near {place}: the cutter touches nothing there")
     } else {
         format!("no lines on the grid of the control keep a pass within its tolerance near {place}")
     };
@@ -91,7 +92,7 @@ fn no_pass(
 struct Task<'a> {
     track: &'a Track,
     lattice: Lattice,
-    /// Radius of the ball with what it leaves, mm.
+    /// Radius of the ball that rounds the cutter, with what it leaves, mm.
     ball: f64,
     /// Range of the distance from the exact track along the normal, mm.
     low: f64,
@@ -257,6 +258,7 @@ impl Task<'_> {
         let hint: Foot = from.foot;
         let found = extremes(
             &self.track.tree,
+            &self.track.cutter,
             self.lattice.centre(from.steps),
             self.lattice.centre(to.steps),
             &question,

@@ -1,6 +1,6 @@
 //! The way onto a surface: from above down to the start of an arc that ends on the pass with its tangent.
 
-use super::start_of;
+use super::{lanes, start_of};
 use crate::geom::surface::{Contact, Track};
 use crate::geom::{Point3, Vec3};
 use crate::math;
@@ -17,15 +17,16 @@ const TRIES: u32 = 4;
 /// is clear of the surface, a point straight above the start.
 pub(super) fn onto(track: &Track) -> Vec<Point3> {
     let Some(start) = start_of(track) else { return Vec::new() };
-    let radius = track.radius * SHARE;
+    let ball = track.cutter.is_ball();
+    let radius = SHARE * if ball { track.radius } else { track.cutter.radius() };
     let tangent = tangent(track, &start);
     for halvings in 0..TRIES {
         let radius = radius / f64::from(1 << halvings);
         let Some(points) = tangent.and_then(|t| arc(&start, t, radius)) else { break };
-        let clear = points.iter().all(|p| {
+        let clear = |p: &Point3| {
             track.tree.nearest_within(*p, Some(&start.foot), track.radius * 1.01).certain >= track.radius
-        });
-        if clear {
+        };
+        if if ball { points.iter().all(clear) } else { lanes::clear(track, &points) } {
             return points;
         }
     }

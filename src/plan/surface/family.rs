@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::ridge::Target;
 use super::spread::{self, COLUMNS, Line};
 use crate::geom::Point2;
-use crate::geom::surface::{Contact, Guide, SurfaceTree, Track, drop_ball};
+use crate::geom::surface::{Contact, Cutter, Guide, SurfaceTree, Track, drop_ball};
 use crate::ir::{Along, Spacing, Surface};
 use crate::math::count;
 
@@ -126,7 +126,8 @@ impl Family {
     }
 
     fn track(&self, guide: Guide) -> Track {
-        Track { tree: Arc::clone(&self.tree), radius: self.ball, guide }
+        let (radius, cutter) = (self.ball, Cutter::ball(self.ball));
+        Track { tree: Arc::clone(&self.tree), radius, cutter, guide }
     }
 
     /// The track of pass `k` of those at `places`; `None` where the line meets no surface. A plan pass goes on, around
@@ -276,7 +277,7 @@ fn outline(tree: &SurfaceTree, ball: f64) -> Vec<Point2> {
 }
 
 /// First and last crossing of a closed outline with a line along `axis`.
-fn crossings(outline: &[Point2], axis: usize, across: f64) -> Option<(f64, f64)> {
+pub(super) fn crossings(outline: &[Point2], axis: usize, across: f64) -> Option<(f64, f64)> {
     let mut found = (f64::INFINITY, f64::NEG_INFINITY);
     for (i, p) in outline.iter().enumerate() {
         let q = outline[(i + 1) % outline.len()];

@@ -5,6 +5,7 @@
 
 mod entry;
 mod family;
+mod lanes;
 mod material;
 mod ridge;
 mod spread;
@@ -18,8 +19,8 @@ use crate::diag::Diagnostic;
 use crate::diag::codes::planning as codes;
 use crate::geom::Point3;
 use crate::geom::surface::curvature::{Concavity, most_concave};
-use crate::geom::surface::{Contact, SurfaceTree, Track};
-use crate::ir::{Origin, Spacing, Surface};
+use crate::geom::surface::{Contact, Cutter, SurfaceTree, Track};
+use crate::ir::{Band, CutterKind, Origin, Spacing, Surface};
 use family::{Family, Leg};
 
 /// Accuracy of the smallest concave radius, mm.
@@ -32,36 +33,80 @@ impl Planner<'_> {
         let name = self.operation_name(kind(surface), surface.name.as_deref());
         let ready = self.ready(&name, Some(surface.tool), origin);
         let entity = &self.program.nets[surface.net];
-        let radius = self.program.tools[surface.tool].diameter / 2.0;
+        let tool = &self.program.tools[surface.tool];
+        // Tools of another shape were refused with the statement.
+        let radius = tool.diameter / 2.0;
+        let cutter = tool.solid().unwrap_or_else(|| Cutter::ball(radius));
         let reach = radius + surface.leave + surface.band.out;
         let tree = Arc::new(SurfaceTree::new(entity.net.clone(), reach));
         let reachable = self.reachable(surface, &tree, origin);
         let clear = self.clears(surface, &tree, origin);
-        let fits = reachable && self.fits(surface, radius, origin);
+        let fits =
+            reachable && self.fits(surface, &cutter, origin) && self.rests((surface, &tree), &cutter, origin);
         if !(fits && clear && ready.is_some()) {
             return;
         }
         if surface.rough {
             self.material(surface, &name, &tree, origin);
         }
-        let family = Family::new(surface, Arc::clone(&tree), radius);
-        let legs = match family.legs(surface) {
+        let (legs, band) = match (cutter.is_ball(), surface.spacing) {
+            (false, Spacing::Step(step)) => {
+                let (hull, band) = lanes::within(&cutter, surface.leave, surface.band);
+                (lanes::legs(surface, &tree, hull, step), band)
+            }
+            _ => (Family::new(surface, Arc::clone(&tree), radius).legs(surface), surface.band),
+        };
+        let legs = match legs {
             Ok(legs) => legs,
             Err(why) => return self.no_passes(&why, origin),
         };
-        let finish = Finish { tree, radius, leave: surface.leave, cusp: cusp(surface.spacing) };
-        self.passes(surface, &name, finish, &legs, origin);
+        let finish = Finish { tree, radius, cutter, leave: surface.leave, cusp: cusp(surface.spacing) };
+        self.passes((surface, band), &name, finish, &legs, origin);
     }
 
     /// The cutter against the smallest concave radius.
-    fn fits(&mut self, surface: &Surface, radius: f64, origin: Handle<Origin>) -> bool {
+    fn fits(&mut self, surface: &Surface, cutter: &Cutter, origin: Handle<Origin>) -> bool {
         let concavity = most_concave(&self.program.nets[surface.net].net, RADIUS_ACCURACY);
-        let ball = radius + surface.leave;
+        let ball = cutter.corner() + surface.leave;
         if concavity.curvature * ball <= 1.0 {
             return true;
         }
         let code = if surface.avoid { &codes::SURFACE_LIFTED } else { &codes::SURFACE_TOO_HOLLOW };
         let diagnostic = self.too_hollow(surface, &concavity, ball, code, origin);
+        self.report(diagnostic, origin);
+        surface.avoid
+    }
+
+    /// A cutter with a flat or a cone against all of the surface, at many places.
+    fn rests(
+        &mut self,
+        (surface, tree): (&Surface, &SurfaceTree),
+        cutter: &Cutter,
+        origin: Handle<Origin>,
+    ) -> bool {
+        if cutter.is_ball() {
+            return true;
+        }
+        let Some(spot) = lanes::deepest(tree, &cutter.grown(surface.leave)) else { return true };
+        let code = if surface.avoid { &codes::SURFACE_LIFTED } else { &codes::SURFACE_TOO_HOLLOW };
+        let (tool, net) = (&self.program.tools[surface.tool], &self.program.nets[surface.net]);
+        let (p, [u, v]) = (spot.at, spot.uv);
+        let message = format!(
+            "{}, set on {} at ({}, {}, {}), u {u:.4}, v {v:.4}, would go {} into it elsewhere",
+            tool.name,
+            net.name,
+            self.show(p.x),
+            self.show(p.y),
+            self.show(p.z),
+            self.show(spot.depth)
+        );
+        let mut diagnostic = Diagnostic::new(code, self.span(origin), message)
+            .label(self.span(tool.origin), "the cutter")
+            .label(self.span(net.origin), "the surface")
+            .help("a smaller cutter leaves less there, a ball-end cutter least");
+        if surface.avoid {
+            diagnostic = diagnostic.note("the path is lifted there: nothing is gouged, and material stays");
+        }
         self.report(diagnostic, origin);
         surface.avoid
     }
@@ -75,9 +120,11 @@ impl Planner<'_> {
         origin: Handle<Origin>,
     ) -> Diagnostic {
         let (p, net) = (concavity.point, &self.program.nets[surface.net]);
+        let round = self.program.tools[surface.tool].kind == CutterKind::Ball;
         let left = if surface.leave > 0.0 { " (with what it leaves)" } else { "" };
         let message = format!(
-            "a ball of radius {}{left} does not fit {}: its smallest concave radius is {}, at ({}, {}, {}), u {:.6}, v {:.6}",
+            "{} of radius {}{left} does not fit {}: its smallest concave radius is {}, at ({}, {}, {}), u {:.6}, v {:.6}",
+            if round { "a ball" } else { "a corner" },
             self.show(ball),
             net.name,
             self.show(concavity.proven_radius()),
@@ -87,9 +134,17 @@ impl Planner<'_> {
             concavity.at[0],
             concavity.at[1]
         );
-        let largest = 2.0 * (concavity.proven_radius() - surface.leave);
+        let largest = concavity.proven_radius() - surface.leave;
         let help = if largest > 0.0 {
-            format!("the largest ball-end cutter that fits has a diameter of {}", self.show(largest))
+            match round {
+                true => {
+                    format!(
+                        "the largest ball-end cutter that fits has a diameter of {}",
+                        self.show(2.0 * largest)
+                    )
+                }
+                false => format!("the largest corner radius that fits is {}", self.show(largest)),
+            }
         } else {
             format!("no ball-end cutter fits with {} left on the surface", self.show(surface.leave))
         };
@@ -153,7 +208,7 @@ impl Planner<'_> {
 
     fn passes(
         &mut self,
-        surface: &Surface,
+        (surface, band): (&Surface, Band),
         name: &str,
         finish: Finish,
         legs: &[Leg],
@@ -162,7 +217,7 @@ impl Planner<'_> {
         let top = finish.tree.bounds().1.z + surface.leave;
         let top = top.max(surface.stock_top.unwrap_or(top));
         let heights = Heights { clearance: surface.clearance, approach: surface.clearance.min(top + ABOVE) };
-        let tip = finish.radius;
+        let tip = finish.cutter.lift();
         let bottom = finish.tree.bounds().0.z;
         let guard = Guard { surface: Some(finish), top, bottom, ..Guard::default() };
         let operation = Operation {
@@ -175,13 +230,13 @@ impl Planner<'_> {
         };
         let index = self.begin(operation, origin);
         for run in legs.split_inclusive(|leg| leg.last) {
-            self.run(surface, run, tip, heights, origin);
+            self.run((run, band), tip, heights, origin);
         }
         self.emit(RecordKind::EndOperation(index), origin);
     }
 
     /// One stay on the surface: onto it, along it, off it.
-    fn run(&mut self, surface: &Surface, run: &[Leg], tip: f64, heights: Heights, origin: Handle<Origin>) {
+    fn run(&mut self, (run, band): (&[Leg], Band), tip: f64, heights: Heights, origin: Handle<Origin>) {
         let (Some(first), Some(last)) = (run.first(), run.last()) else { return };
         let way_in = entry::onto(&first.track);
         let tips = |points: &[Point3]| -> Vec<Point3> {
@@ -196,7 +251,7 @@ impl Planner<'_> {
             self.linear(*p, origin);
         }
         for leg in run {
-            let pass = Pass { track: leg.track.clone(), tip, band: surface.band, room: leg.room.clone() };
+            let pass = Pass { track: leg.track.clone(), tip, band, room: leg.room.clone() };
             self.emit(RecordKind::Pass(Box::new(pass)), origin);
         }
         let mut way_out = tips(&entry::onto(&last.track.reversed()));

@@ -7,6 +7,7 @@ mod capsule;
 mod cover;
 mod field;
 mod moves;
+mod remains;
 #[cfg(test)]
 mod tests;
 mod tile;
@@ -41,7 +42,11 @@ pub(super) fn all(case: &Case<'_>) -> (Vec<Finding>, Vec<Proof>) {
         let own: Vec<Placed<'_>> =
             case.moves.iter().filter(|p| case.context(p.block).operation == Some(index)).copied().collect();
         let swept = moves::check(case, operation, finish, &own, &mut findings);
-        let cover = cover::check(operation, finish, &swept.passes, &mut findings);
+        let cover = if finish.cutter.is_ball() {
+            cover::check(operation, finish, &swept.passes, &mut findings)
+        } else {
+            remains::check(finish, &swept.passes)
+        };
         proofs.push(Proof { operation: index, proof: proof(finish, &swept, &cover) });
     }
     (findings, proofs)

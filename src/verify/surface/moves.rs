@@ -6,7 +6,8 @@ use super::Swept;
 use crate::cl::{Finish, Operation, RecordKind};
 use crate::diag::codes::verification as codes;
 use crate::geom::Point3;
-use crate::geom::surface::swept::{Extremes, Question, extremes};
+use crate::geom::surface::cutter::extremes;
+use crate::geom::surface::swept::{Extremes, Question};
 use crate::readback::TracePath;
 use crate::verify::finding::{Finding, Text};
 use crate::verify::{ACCURACY, Case, Placed};
@@ -101,8 +102,8 @@ fn one(case: &Case<'_>, operation: &Operation, finish: &Finish, placed: &Placed<
     if !cut.known.iter().all(|k| *k) {
         return result;
     }
-    let raised = |p: Point3| Point3::new(p.x, p.y, p.z + finish.radius);
-    let ball = finish.radius + finish.leave;
+    let raised = |p: Point3| finish.cutter.reference(p);
+    let ball = finish.cutter.corner() + finish.leave;
     let allowed = if cut.rapid { 0.0 } else { operation.band.into };
     let smoothing = if cut.rapid { 0.0 } else { cut.path_tolerance };
     debug_assert!(!pass || is_pass(case, placed));
@@ -113,7 +114,7 @@ fn one(case: &Case<'_>, operation: &Operation, finish: &Finish, placed: &Placed<
         }
         let little = if pass { ball + OFF * operation.band.out } else { f64::INFINITY };
         let question = Question { enough: ball, little, accuracy: 0.5 * ACCURACY };
-        let found = extremes(&finish.tree, from, to, &question, None);
+        let found = extremes(&finish.tree, &finish.cutter, from, to, &question, None);
         let worst = |value: f64, at: Point3| Worst { value, line: placed.line, block: placed.block, at };
         let into = worst(ball - found.least.distance, found.least.at);
         result.into.take(into);
@@ -137,6 +138,9 @@ fn one(case: &Case<'_>, operation: &Operation, finish: &Finish, placed: &Placed<
 /// Whether boxes tell that a move stays clear.
 fn clear(finish: &Finish, from: Point3, to: Point3, ball: f64) -> bool {
     let (low, high) = finish.tree.bounds();
+    if !finish.cutter.is_ball() {
+        return from.z.min(to.z) > high.z + ball + CLEAR;
+    }
     (0..3).any(|i| from[i].min(to[i]) > high[i] + ball + CLEAR || from[i].max(to[i]) < low[i] - ball - CLEAR)
 }
 

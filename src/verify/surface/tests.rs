@@ -108,3 +108,30 @@ fn a_vertex_too_deep_or_too_high_is_found() {
         assert!(bent(&build, n, 200).contains(&"E0821"), "{n}");
     }
 }
+
+#[test]
+fn cutters_with_a_flat_or_a_cone_keep_their_band() {
+    for cutter in ["FLAT, 6", "BULL, 6, 1", "TAPER, 4, 0.5, ANGLE, 6"] {
+        for along in ["U", "Y"] {
+            let text = program(&format!("ZIGZAG, {along}, STEP, 4")).replace("BALL, 6", cutter);
+            let mut files = MemoryFiles::default();
+            files.0.insert("part.apt".to_owned(), text);
+            let build = driver::build("part.apt", &files, &Options::default());
+            assert!(!build.has_errors(), "{cutter} {along}: {:#?}", build.diagnostics);
+            let proof = proof(&build);
+            assert!(
+                proof.into.value <= 1e-6 && proof.out.value <= 0.01 + 1e-6,
+                "{cutter} {along}: {proof:?}"
+            );
+            assert!(proof.out.value > 0.005 && proof.cusp.is_none(), "{cutter} {along}: {proof:?}");
+            assert!(
+                proof.left.value <= proof.left_bound && proof.left_bound < 6.0,
+                "{cutter} {along}: {proof:?}"
+            );
+            for n in [3, 20] {
+                assert!(bent(&build, n, -30).contains(&"E0820"), "{cutter} {along} {n}");
+                assert!(bent(&build, n, 60).contains(&"E0821"), "{cutter} {along} {n}");
+            }
+        }
+    }
+}

@@ -116,8 +116,10 @@ fn extremes_of_a_way_are_those_of_samples() {
             let (from, to) = (rest(20.0, 17.0), rest(21.5, 17.6));
             let enough = Question { enough: f64::INFINITY, little: 0.0, accuracy: 1e-7 };
             let found = extremes(&tree, &cutter, from, to, &enough, None);
-            let samples = (0..=12).map(|k| core_distance(&tree, &cutter, from + (to - from) * (f64::from(k) / 12.0)));
-            let (least, most) = samples.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), d| (a.min(d), b.max(d)));
+            let samples =
+                (0..=12).map(|k| core_distance(&tree, &cutter, from + (to - from) * (f64::from(k) / 12.0)));
+            let (least, most) =
+                samples.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), d| (a.min(d), b.max(d)));
             let gap = |x: f64| (-2e-7..0.3).contains(&x);
             assert!(gap(least - found.least.distance), "{cutter:?} {least} {found:?}");
             // The grid tells too much of every distance, and the most of few places too little.
@@ -126,7 +128,8 @@ fn extremes_of_a_way_are_those_of_samples() {
                 let x = from + (to - from) * (f64::from(k) / 40.0);
                 tree.near(&cutter, (x, x), f64::INFINITY, 1e-9, None).distance
             });
-            let (low, high) = exact.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), d| (a.min(d), b.max(d)));
+            let (low, high) =
+                exact.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), d| (a.min(d), b.max(d)));
             assert!((-2e-7..2e-4).contains(&(low - found.least.distance)), "{cutter:?} {low} {found:?}");
             assert!((-2e-7..2e-4).contains(&(found.most.distance - high)), "{cutter:?} {high} {found:?}");
         }
@@ -146,6 +149,42 @@ fn what_rests_touches_and_what_is_lower_enters() {
             };
             assert!(apart(0.0).abs() < 1e-8, "{cutter:?} {x} {y}: {}", apart(0.0));
             assert!(apart(0.01) > 1e-3 && apart(-0.01) < -1e-3, "{cutter:?} {x} {y}");
+        }
+    }
+}
+
+#[test]
+fn a_turned_and_moved_surface_holds_cutters_as_high() {
+    let tree = hills();
+    let patch = &tree.net().patches()[0];
+    let (sin, cos) = math::sin_cos(0.7);
+    let moved = |p: Point3| Point3::new(cos * p.x - sin * p.y + 11.0, sin * p.x + cos * p.y - 7.0, p.z + 3.0);
+    let poles: Vec<Point3> = (0..16).map(|k| moved(patch.pole(k / 4, k % 4))).collect();
+    let turned = SurfaceTree::new(Net::new(4, 4, &poles, None).expect("a net"), 6.0);
+    for cutter in cutters() {
+        for k in 0..10u32 {
+            let p = Point3::new(f64::from(k * 17 % 58), f64::from(k * 23 % 50), 0.0);
+            let Some(rest) = cutter.drop(&tree, p.x, p.y, None) else { continue };
+            let q = moved(p);
+            let other = cutter.drop(&turned, q.x, q.y, None).expect("a contact");
+            assert!((rest.centre.z + 3.0 - other.centre.z).abs() < 3e-9, "{cutter:?} {p} {rest:?} {other:?}");
+        }
+    }
+}
+
+#[test]
+fn what_is_shrunk_stays_inside_by_that_much() {
+    for cutter in cutters() {
+        for by in [0.002, 0.4, 1.3] {
+            let Some((inner, up)) = cutter.shrunk(by) else { continue };
+            for k in 0..=60u32 {
+                let angle = f64::from(k) / 60.0 * math::PI / 2.0 * 0.92;
+                let n = Vec3::new(math::sin(angle), 0.0, -math::cos(angle));
+                assert!(
+                    inner.support(n) + up * n.z <= cutter.support(n) - by + 1e-9,
+                    "{cutter:?} {by} {angle}"
+                );
+            }
         }
     }
 }

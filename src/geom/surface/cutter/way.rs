@@ -30,8 +30,10 @@ pub fn extremes(
         return swept::extremes(tree, from, to, question, hint);
     }
     let foot = tree.near(cutter, (from, to), question.enough, question.accuracy, hint);
-    let distance = if foot.certain < foot.distance - question.accuracy { foot.certain } else { foot.distance };
-    let least = Extreme { distance: distance.min(question.enough), at: nearest_place(cutter, from, to, &foot) };
+    let distance =
+        if foot.certain < foot.distance - question.accuracy { foot.certain } else { foot.distance };
+    let least =
+        Extreme { distance: distance.min(question.enough), at: nearest_place(cutter, from, to, &foot) };
     let enters = least.distance < question.enough - question.accuracy;
     if question.little.is_infinite() || enters && distance <= 0.0 {
         return Extremes { least, most: least, foot };

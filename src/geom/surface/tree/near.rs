@@ -105,7 +105,11 @@ impl Aim for Sweep<'_> {
         let n = near.normal;
         let bend = self.bend(&near);
         let (bu, bv) = (bend * jet.u, bend * jet.v);
-        let h = [n.dot(&jet.uu) + jet.u.dot(&bu), n.dot(&jet.uv) + jet.u.dot(&bv), n.dot(&jet.vv) + jet.v.dot(&bv)];
+        let h = [
+            n.dot(&jet.uu) + jet.u.dot(&bu),
+            n.dot(&jet.uv) + jet.u.dot(&bv),
+            n.dot(&jet.vv) + jet.v.dot(&bv),
+        ];
         let round = h[0] > 0.0 && h[0] * h[2] > h[1] * h[1];
         let step = solve([[h[0], h[1]], [h[1], h[2]]], [-n.dot(&jet.u), -n.dot(&jet.v)]);
         step.filter(|_| round)
@@ -126,6 +130,16 @@ impl Sweep<'_> {
             return bend - way * way.transpose() / along;
         }
         bend
+    }
+}
+
+impl Cutter {
+    /// How far a point is outside of this cutter on its way (below zero: inside), and the outward normal there. The
+    /// reference point goes from `from` to `to`.
+    #[must_use]
+    pub fn outside(&self, (from, to): (Point3, Point3), q: Point3) -> (f64, Vec3) {
+        let near = Sweep { cutter: self, from, way: to - from }.nearest(q);
+        (near.distance - self.corner(), near.normal)
     }
 }
 

@@ -27,7 +27,8 @@ impl SurfaceTree {
         let (p, q) = (jet.u.dot(&velocity), jet.v.dot(&velocity));
         let det = a * c - b * b;
         let along = |g: f64, p: f64| if g > 0.0 { p / g } else { 0.0 };
-        let both = if det > 1e-12 * a * c { [(p * c - q * b) / det, (a * q - b * p) / det] } else { [0.0; 2] };
+        let both =
+            if det > 1e-12 * a * c { [(p * c - q * b) / det, (a * q - b * p) / det] } else { [0.0; 2] };
         let stays = |w: &[f64; 2]| (0..2).all(|i| (0.0..=1.0).contains(&(foot.uv[i] + h * w[i])));
         let left = |w: [f64; 2]| velocity - jet.u * w[0] - jet.v * w[1];
         let choices = [both, [along(a, p), 0.0], [0.0, along(c, q)], [0.0; 2]];

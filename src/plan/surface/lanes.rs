@@ -1,0 +1,238 @@
+//! Passes of cutters with a flat or a cone: their axis runs over lines in plan, and they are let down everywhere.
+//!
+//! Where such a cutter touches may leap over the surface from one place to the next; so passes are spread in plan,
+//! no farther apart than the step asked for, and go on beyond the edges where the far side of the cutter cuts.
+
+use std::sync::Arc;
+
+use super::family::{Leg, crossings};
+use crate::geom::surface::{Cutter, Guide, Rim, SurfaceTree, Track};
+use crate::geom::{Point2, Point3, Vec2};
+use crate::ir::{Along, Band, Surface};
+use crate::math::count;
+
+/// Places on an edge of the outline.
+const EDGE: u32 = 200;
+/// Places across and along at which the plan's width is measured.
+const ACROSS: usize = 256;
+const ALONG: u32 = 24;
+/// More passes than this are a mistake in the step.
+const MOST: f64 = 50_000.0;
+/// Passes begin so far inside the outline, as a share of its width: at its border it has no length.
+const INSET: f64 = 1e-3;
+/// Vertices may be to the side of their line by this share of the step.
+const ASIDE: f64 = 0.05;
+/// Places at which that is told.
+const ROOMS: usize = 17;
+
+/// The passes of an operation in this making.
+struct Lanes {
+    tree: Arc<SurfaceTree>,
+    cutter: Cutter,
+    rim: Rim,
+    step: f64,
+}
+
+/// The cutter with a hull to the middle of its band, and the band about that: the exact track then has a round corner
+/// and a normal everywhere.
+pub(super) fn within(cutter: &Cutter, leave: f64, band: Band) -> (Cutter, Band) {
+    // A sharp rim has no hull inside of itself.
+    let into = band.into.min(band.out + cutter.corner() + leave);
+    let half = 0.5 * (band.out + into);
+    (cutter.grown(leave + half - into), Band { into: half, out: half })
+}
+
+/// All passes and the ways between them, in the order they are cut.
+pub(super) fn legs(
+    surface: &Surface,
+    tree: &Arc<SurfaceTree>,
+    cutter: Cutter,
+    step: f64,
+) -> Result<Vec<Leg>, String> {
+    let rim = Rim::new(tree.net(), &cutter);
+    let lanes = Lanes { tree: Arc::clone(tree), cutter, rim, step };
+    let mut tracks = match surface.along {
+        Along::X => lanes.lines(0)?,
+        Along::Y => lanes.lines(1)?,
+        Along::V => lanes.parameters(1)?,
+        Along::U | Along::IsoCusp => lanes.parameters(0)?,
+    };
+    if tracks.is_empty() {
+        return Err("no pass meets the surface".into());
+    }
+    if surface.zigzag {
+        for track in tracks.iter_mut().skip(1).step_by(2) {
+            *track = track.reversed();
+        }
+    }
+    let mut legs: Vec<Leg> = Vec::with_capacity(2 * tracks.len());
+    for track in tracks {
+        let before = legs.last_mut().filter(|_| surface.zigzag);
+        let link = before.and_then(|before| lanes.link(&before.track, &track));
+        if let Some(before) = legs.last_mut() {
+            before.last = link.is_none();
+        }
+        legs.extend(link.map(|track| Leg { track, room: Vec::new(), last: false }));
+        let room = if matches!(track.guide, Guide::Line { .. }) { Vec::new() } else { lanes.room() };
+        legs.push(Leg { track, room, last: false });
+    }
+    if let Some(end) = legs.last_mut() {
+        end.last = true;
+    }
+    Ok(legs)
+}
+
+impl Lanes {
+    fn room(&self) -> Vec<f64> {
+        vec![ASIDE * self.step; ROOMS]
+    }
+
+    fn track(&self, guide: Guide) -> Track {
+        Track { tree: Arc::clone(&self.tree), radius: self.cutter.corner(), cutter: self.cutter, guide }
+    }
+
+    fn passes(&self, width: f64) -> Result<usize, String> {
+        let wanted = (width / self.step).ceil().max(1.0);
+        if !(wanted <= MOST) {
+            return Err(format!("this step asks for more than {MOST} passes"));
+        }
+        // At most MOST, and floats saturate.
+        Ok(wanted as usize)
+    }
+
+    /// Straight lines along x (0) or y (1).
+    fn lines(&self, axis: usize) -> Result<Vec<Track>, String> {
+        let outline = self.rim.outline(self.tree.net(), EDGE);
+        let across = outline.iter().map(|p| p[1 - axis]);
+        let (low, high) = across.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
+        let inset = INSET * (high - low);
+        let (low, high) = (low + inset, high - inset);
+        let passes = self.passes(high - low)?;
+        let line = |k: usize| {
+            let across = low + (high - low) * count(k) / count(passes);
+            let (a, b) = crossings(&outline, axis, across)?;
+            let place =
+                |along: f64| if axis == 0 { Point2::new(along, across) } else { Point2::new(across, along) };
+            self.held(place(a), place(b))
+        };
+        Ok((0..=passes).filter_map(line).collect())
+    }
+
+    /// A line, cut back to where the cutter touches at both ends.
+    fn held(&self, from: Point2, to: Point2) -> Option<Track> {
+        const PARTS: u32 = 32;
+        const HALVINGS: u32 = 24;
+        let at = |t: f64| from + (to - from) * t;
+        let touches = |t: f64| self.cutter.drop(&self.tree, at(t).x, at(t).y, None).is_some();
+        let inside = (0..=PARTS).map(|k| f64::from(k) / f64::from(PARTS));
+        let (first, last) = (inside.clone().find(|t| touches(*t))?, inside.rev().find(|t| touches(*t))?);
+        let end = |mut on: f64, mut off: f64| {
+            for _ in 0..HALVINGS {
+                let middle = 0.5 * (on + off);
+                if touches(middle) { on = middle } else { off = middle }
+            }
+            on
+        };
+        let part = 1.0 / f64::from(PARTS);
+        let a = if first > 0.0 { end(first, first - part) } else { 0.0 };
+        let b = if last < 1.0 { end(last, last + part) } else { 1.0 };
+        (b > a && (to - from).norm() * (b - a) > 1e-3)
+            .then(|| self.track(Guide::Line { from: at(a), to: at(b) }))
+    }
+
+    /// Lines over parameter lines along u (0) or v (1), and over the rim.
+    fn parameters(&self, axis: usize) -> Result<Vec<Track>, String> {
+        let net = self.tree.net();
+        let (range, (first, last)) = (self.rim.range(net, axis), self.rim.range(net, 1 - axis));
+        let across = |k: usize| first + (last - first) * count(k) / count(ACROSS);
+        let place = |k: usize, i: u32| {
+            let along = range.0 + (range.1 - range.0) * f64::from(i) / f64::from(ALONG);
+            self.rim.place(net, if axis == 0 { [along, across(k)] } else { [across(k), along] })
+        };
+        let widest =
+            |k: usize| (0..=ALONG).map(|i| (place(k + 1, i) - place(k, i)).norm()).fold(0.0, f64::max);
+        let mut sums = vec![0.0];
+        for k in 0..ACROSS {
+            sums.push(sums[k] + widest(k));
+        }
+        let passes = self.passes(sums[ACROSS])?;
+        let track = |j: usize| {
+            let wanted = sums[ACROSS] * count(j) / count(passes);
+            let k = sums.partition_point(|s| *s < wanted).clamp(1, ACROSS);
+            let width = sums[k] - sums[k - 1];
+            let share = if width > 0.0 { ((wanted - sums[k - 1]) / width).clamp(0.0, 1.0) } else { 0.0 };
+            let value = across(k - 1) + (across(k) - across(k - 1)) * share;
+            self.track(Guide::Over { axis, value, range, rim: self.rim })
+        };
+        Ok((0..=passes).map(track).collect())
+    }
+
+    /// The way from the end of one pass to the start of the next, along the surface.
+    fn link(&self, from: &Track, to: &Track) -> Option<Track> {
+        match (&from.guide, &to.guide) {
+            (Guide::Line { to: end, .. }, Guide::Line { from: start, .. }) => {
+                Some(self.track(Guide::Line { from: *end, to: *start })).filter(|track| follows(track))
+            }
+            (
+                Guide::Over { axis, value, range: (_, end), rim },
+                Guide::Over { value: next, range: (start, _), .. },
+            ) if end == start => {
+                let guide = Guide::Over { axis: 1 - axis, value: *end, range: (*value, *next), rim: *rim };
+                Some(self.track(guide))
+            }
+            _ => None,
+        }
+    }
+}
+
+/// Whether the cutter touches all along a short track.
+fn follows(track: &Track) -> bool {
+    const PLACES: u32 = 16;
+    let mut hint = None;
+    (0..=PLACES).all(|k| {
+        hint = track.at(f64::from(k) / f64::from(PLACES), hint.as_ref());
+        hint.is_some()
+    })
+}
+
+/// Points of the cutter's reference on its way onto a track are clear of the surface, from the first on.
+pub(super) fn clear(track: &Track, points: &[Point3]) -> bool {
+    let corner = track.cutter.corner();
+    points
+        .windows(2)
+        .all(|w| track.tree.near(&track.cutter, (w[0], w[1]), corner, 1e-9, None).certain >= corner)
+}
+
+/// A place where a cutter cannot be set down.
+pub(super) struct Spot {
+    /// How deep it would go into the surface elsewhere, mm.
+    pub depth: f64,
+    /// The place.
+    pub at: Point3,
+    /// Its net parameters.
+    pub uv: [f64; 2],
+}
+
+/// Of many places, that where a cutter set on the surface would go deepest into it elsewhere.
+pub(super) fn deepest(tree: &SurfaceTree, cutter: &Cutter) -> Option<Spot> {
+    const PLACES: u32 = 20;
+    /// Less is far below every tolerance, mm.
+    const COUNTS: f64 = 1e-4;
+    let (net, corner) = (tree.net(), cutter.corner());
+    let size = net.size().map(count);
+    let mut worst: Option<Spot> = None;
+    for k in 0..(PLACES + 1) * (PLACES + 1) {
+        let [i, j] = [k / (PLACES + 1), k % (PLACES + 1)].map(|i| f64::from(i) / f64::from(PLACES));
+        let uv = [size[0] * i, size[1] * j];
+        let jet = net.jet(uv[0], uv[1]);
+        let Some(n) = jet.normal() else { continue };
+        let beside = cutter.touches_beside(Vec2::new(n.x, n.y));
+        let reference = Point3::new(jet.p.x + beside.x, jet.p.y + beside.y, jet.p.z + corner * n.z);
+        let foot = tree.near(cutter, (reference, reference), corner, COUNTS, None);
+        let depth = corner - foot.distance;
+        if depth > worst.as_ref().map_or(COUNTS, |w| w.depth) {
+            worst = Some(Spot { depth, at: jet.p, uv });
+        }
+    }
+    worst
+}
