@@ -73,7 +73,7 @@ impl Cutter {
         let [sin, cos] = self.side;
         let sharp = by - self.corner;
         let disc = self.disc - sharp * (1.0 - sin) / cos;
-        (disc >= 0.0).then(|| (Cutter { corner: 0.0, disc, ..*self }, sharp))
+        (disc >= 0.0).then_some((Cutter { corner: 0.0, disc, ..*self }, sharp))
     }
     /// Radius of the ball that rounds it, mm.
     #[must_use]

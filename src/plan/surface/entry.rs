@@ -26,7 +26,8 @@ pub(super) fn onto(track: &Track) -> Vec<Point3> {
         let clear = |p: &Point3| {
             track.tree.nearest_within(*p, Some(&start.foot), track.radius * 1.01).certain >= track.radius
         };
-        if if ball { points.iter().all(clear) } else { lanes::clear(track, &points) } {
+        let free = if ball { points.iter().all(clear) } else { lanes::clear(track, &points) };
+        if free {
             return points;
         }
     }

@@ -93,7 +93,7 @@ impl Lanes {
 
     fn passes(&self, width: f64) -> Result<usize, String> {
         let wanted = (width / self.step).ceil().max(1.0);
-        if !(wanted <= MOST) {
+        if wanted.is_nan() || wanted > MOST {
             return Err(format!("this step asks for more than {MOST} passes"));
         }
         // At most MOST, and floats saturate.
@@ -171,7 +171,7 @@ impl Lanes {
     fn link(&self, from: &Track, to: &Track) -> Option<Track> {
         match (&from.guide, &to.guide) {
             (Guide::Line { to: end, .. }, Guide::Line { from: start, .. }) => {
-                Some(self.track(Guide::Line { from: *end, to: *start })).filter(|track| follows(track))
+                Some(self.track(Guide::Line { from: *end, to: *start })).filter(follows)
             }
             (
                 Guide::Over { axis, value, range: (_, end), rim },
