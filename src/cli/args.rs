@@ -100,7 +100,8 @@ Examples:
 const PLOT_EXAMPLES: &str = "\
 Examples:
   partwright plot plate.apt -o plate.svg
-  partwright plot plate.apt --what deviation --post grbl -o deviation.png";
+  partwright plot plate.apt --what deviation --post grbl -o deviation.png
+  partwright plot cavity.apt --what deviation -o cavity.html    a page: turn it, walk through its blocks";
 
 /// Arguments of `build`.
 #[derive(Debug, Args)]
@@ -215,7 +216,8 @@ pub struct PlotArgs {
     /// The cam to draw, when the program has several.
     #[arg(long, value_name = "NAME")]
     pub cam: Option<String>,
-    /// The picture: FILE.svg or FILE.png; `-` is standard output (SVG). Default: STEM.WHAT.svg beside the source.
+    /// The picture: FILE.svg or FILE.png, or FILE.html, a page to turn and walk through (path, deviation); `-` is standard
+    /// output (SVG). Default: STEM.WHAT.svg beside the source.
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
     /// Pixels of a PNG for every unit of the drawing.
@@ -236,7 +238,7 @@ pub enum Picture {
     Cam,
     /// The cutter's path.
     Path,
-    /// How far the blocks are from the exact curves.
+    /// How far the blocks are from the exact curves, or what the cutter leaves on a surface.
     Deviation,
 }
 

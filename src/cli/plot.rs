@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::args::{Picture, PlotArgs};
-use super::build::{self, Compiled};
+use super::build;
 use super::disk::STDIN;
 use super::messages::Messages;
 use super::output::{self, Product, is_stdout};
@@ -11,7 +11,7 @@ use super::{DEFAULT_POST, Status};
 use crate::diag::Diagnostic;
 use crate::diag::codes::command as codes;
 use crate::driver;
-use crate::plot::{self, Figure, PlotError, What};
+use crate::plot::{self, PlotError, What};
 
 /// Compiles the program and draws it.
 pub fn plot(args: &PlotArgs, messages: Messages) -> Result<Status, Diagnostic> {
@@ -25,19 +25,24 @@ pub fn plot(args: &PlotArgs, messages: Messages) -> Result<Status, Diagnostic> {
     let compiled = build::compile(core::slice::from_ref(&args.file), &options, &args.common, messages)?;
     let status = build::show(&compiled, messages);
     let Some(one) = compiled.first().filter(|_| status == Status::Done) else { return Ok(status) };
-    let figure = draw(args, one).map_err(|e| no_picture(&e))?;
+    let what = what(args);
+    let output = one.build.outputs.first();
+    let figure = || plot::draw_output(&what, &one.build, output);
     let bytes = match form {
-        Form::Svg => figure.svg().as_bytes().to_vec(),
-        Form::Png => figure.png(args.scale).map_err(|e| no_picture(&e))?,
+        Form::Svg => figure().map(|f| f.svg().as_bytes().to_vec()),
+        Form::Png => figure().and_then(|f| f.png(args.scale)),
+        Form::Html => plot::page(&what, &one.build, output).map(String::into_bytes),
     };
+    let bytes = bytes.map_err(|e| no_picture(&e))?;
     output::write_all(&[Product { path, bytes }])?;
     Ok(Status::Done)
 }
 
-/// Forms of pictures.
+/// Forms of pictures: drawings, and pages to be turned.
 enum Form {
     Svg,
     Png,
+    Html,
 }
 
 impl Form {
@@ -47,9 +52,10 @@ impl Form {
             _ if is_stdout(path) => Ok(Form::Svg),
             Some("svg") => Ok(Form::Svg),
             Some("png") => Ok(Form::Png),
+            Some("html") => Ok(Form::Html),
             _ => Err(Diagnostic::global(
                 &codes::PICTURE_FORM,
-                format!("{} is neither a .svg nor a .png file", path.display()),
+                format!("{} is neither a .svg nor a .png nor a .html file", path.display()),
             )),
         }
     }
@@ -69,15 +75,12 @@ fn destination(args: &PlotArgs) -> PathBuf {
     })
 }
 
-fn draw(args: &PlotArgs, one: &Compiled) -> Result<Figure, PlotError> {
-    let what = match args.what {
+fn what(args: &PlotArgs) -> What {
+    match args.what {
         Picture::Cam => What::Cam(args.cam.clone()),
         Picture::Path => What::Path,
         Picture::Deviation => What::Deviation,
-    };
-    let target = one.build.outputs.first().and_then(|o| o.target.as_ref());
-    let program = one.build.ir.as_ref().ok_or(PlotError::NoPath)?;
-    plot::draw(&what, program, one.build.cl.as_ref(), target)
+    }
 }
 
 fn no_picture(error: &PlotError) -> Diagnostic {

@@ -1,6 +1,7 @@
 //! SVG elements on a canvas; the one place of this module that prints numbers.
 
 use core::fmt::Write as _;
+use std::collections::BTreeMap;
 
 /// A point of the canvas, pixels, y downwards.
 pub(super) type Pixel = (f64, f64);
@@ -127,6 +128,17 @@ impl Canvas {
                 "<path d=\"{data}\" fill=\"none\" stroke=\"{color}\" stroke-width=\"{width}\" stroke-linecap=\"round\"/>"
             ));
         }
+    }
+    /// Runs of square cells by colour: path data in cells, from the corner `at`.
+    pub(super) fn cells(&mut self, at: Pixel, cell: f64, runs: &BTreeMap<[u8; 3], String>) {
+        let (x, y, size) = (px(at.0), px(at.1), px(cell));
+        self.push(format_args!(
+            "<g transform=\"translate({x} {y}) scale({size})\" fill=\"none\" shape-rendering=\"crispEdges\">"
+        ));
+        for ([r, g, b], data) in runs {
+            self.push(format_args!("<path stroke=\"#{r:02x}{g:02x}{b:02x}\" d=\"{data}\"/>"));
+        }
+        self.push(format_args!("</g>"));
     }
     pub(super) fn text(&mut self, at: Pixel, text: &str, t: Type) {
         let anchor = match t.anchor {

@@ -57,7 +57,7 @@ pub fn deviation(view: &DeviationView) -> Figure {
 }
 
 /// Small units of deviation: micrometres, or ten-thousandths of an inch.
-const fn small(units: LengthUnit) -> (f64, &'static str) {
+pub(super) const fn small(units: LengthUnit) -> (f64, &'static str) {
     match units {
         LengthUnit::Millimetre => (1000.0, "µm"),
         LengthUnit::Inch => (10_000.0 / 25.4, "0.0001 in"),

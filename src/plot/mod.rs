@@ -1,4 +1,4 @@
-//! Pictures: cam, path and diagrams as SVG and PNG.
+//! Pictures: cam, path and diagrams as SVG and PNG, and pages that show them in space.
 //!
 //! A [`Figure`] is an SVG text: white background, fixed decimals, no script, no file or font of the machine, so the
 //! same program gives the same bytes everywhere. [`draw`] makes one from a compiled program; [`cam`], [`path`] and
@@ -12,7 +12,9 @@ mod deviation;
 mod diagrams;
 mod follower;
 mod path;
+mod page;
 mod png;
+mod solid;
 #[cfg(test)]
 mod tests;
 mod theme;
@@ -22,6 +24,7 @@ mod world;
 pub use cam::{CamView, Track, cam};
 pub use deviation::{DeviationView, PieceDeviation, deviation};
 pub use path::{PathView, path};
+pub use solid::{draw_output, page};
 pub use views::{What, draw};
 
 /// A picture.
@@ -61,6 +64,10 @@ pub enum PlotError {
     NoPath,
     /// No contour is cut along an exact curve, or nothing has been lowered.
     NoContour,
+    /// No surface is finished.
+    NoSurface,
+    /// This picture is a drawing, not a page.
+    FlatOnly,
     /// The drawing program failed.
     Render(String),
 }
@@ -74,6 +81,12 @@ impl core::fmt::Display for PlotError {
             }
             PlotError::NoPath => f.write_str("the program moves no cutter"),
             PlotError::NoContour => f.write_str("the program cuts no contour whose deviation could be drawn"),
+            PlotError::NoSurface => {
+                f.write_str("the program finishes no surface: there is no deviation to show in space")
+            }
+            PlotError::FlatOnly => {
+                f.write_str("the picture of a cam is a .svg or a .png; its path and blank are in `--what path`")
+            }
             PlotError::Render(reason) => write!(f, "the picture cannot be rendered: {reason}"),
         }
     }

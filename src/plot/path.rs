@@ -48,7 +48,7 @@ pub fn path(view: &PathView) -> Figure {
     let mut canvas = Canvas::default();
     canvas.text((36.0, 48.0), &view.title, theme::TITLE);
     canvas.text((36.0, 74.0), &subtitle(view, &strokes), theme::SUBTITLE);
-    grid(&mut canvas, view, &world);
+    grid(&mut canvas, view.units, &world, (AT, SIZE));
     canvas.clipped(AT, SIZE, |c| panel(c, view, &world, &strokes));
     canvas.rect(AT, SIZE, "none", Some(theme::AXIS));
     legend(&mut canvas, view, &strokes);
@@ -91,38 +91,35 @@ fn world(view: &PathView, strokes: &[Stroke]) -> View {
     View::fit(low - room, high + room, AT, SIZE)
 }
 
-/// Axes in the program's unit with a light grid.
-fn grid(canvas: &mut Canvas, view: &PathView, world: &View) {
-    let unit = view.units.in_mm();
+/// Axes of a plan view in the program's unit with a light grid.
+pub(super) fn grid(canvas: &mut Canvas, units: LengthUnit, world: &View, (at, size): (Pixel, Pixel)) {
+    const SPACING: f64 = 88.0;
+    let unit = units.in_mm();
     let per_pixel = 1.0 / (world.scale * unit);
     let x_at = |pixel: f64| (pixel - world.origin.0) * per_pixel;
     let y_at = |pixel: f64| (world.origin.1 - pixel) * per_pixel;
-    let step = super::chart::round_step(SIZE.0 * per_pixel / 12.0);
-    let x = Scale::fixed(x_at(AT.0), x_at(AT.0 + SIZE.0), step);
-    let y = Scale::fixed(y_at(AT.1 + SIZE.1), y_at(AT.1), step);
+    let step = super::chart::round_step(SPACING * per_pixel);
+    let x = Scale::fixed(x_at(at.0), x_at(at.0 + size.0), step);
+    let y = Scale::fixed(y_at(at.1 + size.1), y_at(at.1), step);
+    let pen = |value: f64| if value == 0.0 { theme::AXIS } else { theme::GRID };
     for value in x.ticks() {
-        let at = world.origin.0 + value / per_pixel;
-        let pen = if value == 0.0 { theme::AXIS } else { theme::GRID };
-        canvas.line((at, AT.1), (at, AT.1 + SIZE.1), pen);
+        let place = world.origin.0 + value / per_pixel;
+        canvas.line((place, at.1), (place, at.1 + size.1), pen(value));
         canvas.text(
-            (at, AT.1 + SIZE.1 + 18.0),
+            (place, at.1 + size.1 + 18.0),
             &label(value, x.decimals),
             theme::text(12.0, theme::MUTED, Anchor::Middle),
         );
     }
     for value in y.ticks() {
-        let at = world.origin.1 - value / per_pixel;
-        let pen = if value == 0.0 { theme::AXIS } else { theme::GRID };
-        canvas.line((AT.0, at), (AT.0 + SIZE.0, at), pen);
-        canvas.text((AT.0 - 8.0, at + 4.0), &label(value, y.decimals), theme::TICK);
+        let place = world.origin.1 - value / per_pixel;
+        canvas.line((at.0, place), (at.0 + size.0, place), pen(value));
+        canvas.text((at.0 - 8.0, place + 4.0), &label(value, y.decimals), theme::TICK);
     }
-    let name = |axis: &str| format!("{axis}, {}", view.units.symbol());
-    canvas.text(
-        (AT.0 + SIZE.0, AT.1 + SIZE.1 + 36.0),
-        &name("X"),
-        theme::text(13.0, theme::MUTED, Anchor::End),
-    );
-    canvas.text((AT.0, AT.1 - 8.0), &name("Y"), theme::text(13.0, theme::MUTED, Anchor::End));
+    let name = |axis: &str| format!("{axis}, {}", units.symbol());
+    let corner = (at.0 + size.0, at.1 + size.1 + 36.0);
+    canvas.text(corner, &name("X"), theme::text(13.0, theme::MUTED, Anchor::End));
+    canvas.text((at.0, at.1 - 8.0), &name("Y"), theme::text(13.0, theme::MUTED, Anchor::End));
 }
 
 fn panel(canvas: &mut Canvas, view: &PathView, world: &View, strokes: &[Stroke]) {

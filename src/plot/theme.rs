@@ -15,6 +15,7 @@ pub(super) const ROUGH: &str = "#6f97c4";
 pub(super) const RAPID: &str = "#c92a2a";
 pub(super) const LEAD: &str = "#d9820a";
 pub(super) const LIMIT: &str = "#c92a2a";
+pub(super) const ENTRY: &str = "#8250c4";
 pub(super) const STOCK: &str = "#9a7b4f";
 
 pub(super) const GRID: Pen = Pen::solid(HAIR, 1.0);

@@ -138,7 +138,7 @@ fn draw_path(program: &ir::Program, cl: Option<&Cl>, target: &TargetProgram) -> 
 }
 
 /// The flanks of all cams, and all curves that a profile follows.
-fn part_edges(program: &ir::Program) -> Vec<CurveRef> {
+pub(super) fn part_edges(program: &ir::Program) -> Vec<CurveRef> {
     let flanks = program.cams.iter().flat_map(|(_, c)| {
         let flanks: &[Flank] = c.cam.definition().flanks();
         flanks.iter().map(|f| c.cam.flank(*f)).collect::<Vec<_>>()

@@ -63,6 +63,8 @@ pub use certificate::{
     Time, VERSION,
 };
 
+pub(crate) use surface::{Left, Remaining, Sweep};
+
 use finding::{Finding, Reporter};
 use plan::{Context, Lines, Orders};
 
@@ -277,7 +279,7 @@ fn without_inserts(target: &TargetProgram, emitted: &Emitted, line: u32) -> Opti
 }
 
 /// The machine as the lowered program declares it.
-fn setup(target: &TargetProgram) -> MachineSetup {
+pub(crate) fn setup(target: &TargetProgram) -> MachineSetup {
     let rotary = target.capabilities.rotary.map(|r| Rotary { letter: r.letter, reversed: r.reversed });
     let names = target.tools.iter().filter_map(|t| t.number.map(|n| (t.name.clone(), n)));
     MachineSetup { rotary, tools: None, tool_names: names.collect() }

@@ -129,6 +129,15 @@ impl<'a> Field<'a> {
         most
     }
 
+    /// The least that any move near a place of a patch leaves there, and that move; `near` is scratch.
+    pub(super) fn lowest(&self, patch: usize, uv: [f64; 2], near: &mut Vec<u32>) -> Option<(f64, &'a Swept)> {
+        let corner = Corner::new(self.tree.net().patches().get(patch)?, uv[0], uv[1])?;
+        self.gather(&[corner], near);
+        let heights = near.iter().map(|i| (self.height(*i, &corner), *i));
+        let (height, by) = heights.min_by(|a, b| a.0.total_cmp(&b.0)).filter(|(h, _)| h.is_finite())?;
+        Some((height, self.passes.get(by as usize)?))
+    }
+
     pub(super) fn worst(&self, value: f64, by: u32, at: &Corner) -> Worst {
         let swept = self.passes.get(by as usize);
         let (line, block) = (swept.map_or(0, |s| s.line), swept.and_then(|s| s.block));
@@ -144,7 +153,7 @@ impl<'a> Field<'a> {
     }
 
     /// Moves that may reach the corners of a cell.
-    pub(super) fn gather(&self, corners: &[Corner; 4], near: &mut Vec<u32>) {
+    pub(super) fn gather(&self, corners: &[Corner], near: &mut Vec<u32>) {
         near.clear();
         let mut low = [f64::INFINITY; 2];
         let mut high = [f64::NEG_INFINITY; 2];

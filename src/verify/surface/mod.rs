@@ -7,10 +7,13 @@ mod capsule;
 mod cover;
 mod field;
 mod moves;
+mod remaining;
 mod remains;
 #[cfg(test)]
 mod tests;
 mod tile;
+
+pub use remaining::{Left, Remaining, Sweep};
 
 use super::certificate::{Deviation, SurfaceProof};
 use super::finding::Finding;

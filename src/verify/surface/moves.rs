@@ -102,13 +102,12 @@ fn one(case: &Case<'_>, operation: &Operation, finish: &Finish, placed: &Placed<
     if !cut.known.iter().all(|k| *k) {
         return result;
     }
-    let raised = |p: Point3| finish.cutter.reference(p);
     let ball = finish.cutter.corner() + finish.leave;
     let allowed = if cut.rapid { 0.0 } else { operation.band.into };
     let smoothing = if cut.rapid { 0.0 } else { cut.path_tolerance };
     debug_assert!(!pass || is_pass(case, placed));
     for (from, to) in chords(placed) {
-        let (from, to) = (raised(from), raised(to));
+        let (from, to) = (raised(finish, from), raised(finish, to));
         if !pass && clear(finish, from, to, ball) {
             continue;
         }
@@ -135,6 +134,11 @@ fn one(case: &Case<'_>, operation: &Operation, finish: &Finish, placed: &Placed<
     result
 }
 
+/// The cutter's reference point (a ball's centre) when its tip is at a point.
+pub(super) fn raised(finish: &Finish, p: Point3) -> Point3 {
+    finish.cutter.reference(p)
+}
+
 /// Whether boxes tell that a move stays clear.
 fn clear(finish: &Finish, from: Point3, to: Point3, ball: f64) -> bool {
     let (low, high) = finish.tree.bounds();
@@ -145,7 +149,7 @@ fn clear(finish: &Finish, from: Point3, to: Point3, ball: f64) -> bool {
 }
 
 /// A move as straight ways of the tip; arcs and curves, of which passes have none, by chords of a hundredth of a mm.
-fn chords(placed: &Placed<'_>) -> Vec<(Point3, Point3)> {
+pub(super) fn chords(placed: &Placed<'_>) -> Vec<(Point3, Point3)> {
     let (start, end) = (placed.cut.start(), placed.cut.end());
     if matches!(placed.cut.path, TracePath::Line { .. }) {
         return vec![(start, end)];
