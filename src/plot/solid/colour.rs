@@ -28,12 +28,12 @@ pub(in crate::plot) struct Range {
 }
 
 impl Range {
-    /// From INTOL to what cusps and OUTTOL allow together; without a height of cusps up to what is left on all but a
-    /// hundredth of the places.
+    /// From INTOL to what cusps and OUTTOL allow together; without a height of cusps up to what is left on all but few
+    /// places.
     pub(in crate::plot) fn of(operation: &Operation, finish: &Finish, mesh: &Mesh) -> Range {
         let high = match finish.cusp {
             Some(cusp) => cusp + operation.band.out,
-            None => ninety_nine_percent(mesh).max(operation.band.out),
+            None => most_of(mesh).max(operation.band.out),
         };
         let high = high.max(1e-4);
         Range { low: -operation.band.into.max(0.1 * high), high }
@@ -68,10 +68,12 @@ impl Range {
     }
 }
 
-fn ninety_nine_percent(mesh: &Mesh) -> f64 {
+/// The largest height, or, where that is far above what is left on 99 of 100 places, twice that.
+fn most_of(mesh: &Mesh) -> f64 {
     let mut heights: Vec<f64> = mesh.places().filter_map(|p| p.left).map(|l| l.height).collect();
     heights.sort_by(f64::total_cmp);
-    heights.get(heights.len() * 99 / 100).copied().unwrap_or(0.0)
+    let usual = heights.get(heights.len() * 99 / 100).copied().unwrap_or(0.0);
+    heights.last().copied().unwrap_or(0.0).min(2.0 * usual)
 }
 
 #[cfg(test)]

@@ -49,5 +49,5 @@ pub(in crate::plot) fn words(tool: &Tool, units: LengthUnit) -> String {
         CutterKind::Drill => "drill",
     };
     let size = crate::plot::canvas::decimal(tool.diameter / units.in_mm(), 4);
-    format!("{} {kind} ⌀{size}", tool.name)
+    format!("{} {kind} Ø{size}", tool.name)
 }

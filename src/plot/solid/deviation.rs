@@ -99,7 +99,7 @@ fn distribution(sheet: &mut Sheet<'_>, mesh: &Mesh, range: &Range, top: f64) -> 
 
 /// The colours under the distribution.
 fn bar(canvas: &mut Canvas, chart: &Chart, range: &Range, factor: f64) {
-    const STEPS: usize = 76;
+    const STEPS: usize = 190;
     let width = (range.high - range.low) / crate::math::count(STEPS);
     for k in 0..STEPS {
         let from = range.low + width * crate::math::count(k);

@@ -32,10 +32,14 @@ pub(in crate::plot) fn marks(scene: &Scene<'_>, operation: usize) -> Vec<Mark> {
     // Below the certified accuracy there is nothing to show.
     let found = all.into_iter().filter_map(|(name, d)| Some((name, d?)));
     let found = found.filter(|(_, d)| d.value > crate::verify::ACCURACY && d.line > 0);
+    // Some are told with the cutter's centre.
+    let surface = scene.cl.operations.get(operation).and_then(|o| o.guard.surface.as_ref());
+    let on_surface = |p: Point3| surface.map_or(p, |f| f.tree.nearest(p, None).point);
     found
         .zip('A'..)
         .map(|((name, d), letter)| {
-            Mark { letter, name, value: d.value, at: Point3::new(d.x, d.y, d.z), line: d.line }
+            let at = on_surface(Point3::new(d.x, d.y, d.z));
+            Mark { letter, name, value: d.value, at, line: d.line }
         })
         .collect()
 }

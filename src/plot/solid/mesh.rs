@@ -40,9 +40,8 @@ const WITHIN: usize = 3;
 
 /// The meshes of all operations that finish a surface, of `places` places each at most; measured only when `measured`.
 pub(in crate::plot) fn meshes(scene: &Scene<'_>, places: usize, measured: bool) -> Vec<Mesh> {
-    let operations = scene.cl.operations.iter().enumerate();
-    let surfaces = operations.filter_map(|(i, o)| o.guard.surface.as_ref().map(|f| (i, o, f)));
-    surfaces
+    scene
+        .finished()
         .map(|(index, operation, finish)| {
             let own = scene.strokes.iter().zip(&scene.moves);
             let own = own.filter(|(s, _)| measured && s.operation.is_some_and(|o| o as usize == index));

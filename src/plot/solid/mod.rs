@@ -40,7 +40,7 @@ fn in_space(what: &What, build: &Build, output: Option<&Output>) -> Option<Resul
         return None;
     }
     match what {
-        What::Deviation if scene.finishes_surface() => Some(deviation::deviation(&scene)),
+        What::Deviation if scene.finished().next().is_some() => Some(deviation::deviation(&scene)),
         What::Deviation if build.ir.is_none() => Some(Err(PlotError::NoSurface)),
         What::Cam(_) | What::Deviation => None,
         What::Path => Some(Ok(path::path(&scene))),

@@ -18,7 +18,7 @@ pub(super) fn path(scene: &Scene<'_>) -> Figure {
     sheet.subtitle(&sheet::summary(scene));
     sheet.views(|canvas, panel| {
         panel.raster.draw(canvas, |_, light| {
-            let grey = 150.0 + 95.0 * (light * GREYS).round() / GREYS;
+            let grey = 118.0 + 127.0 * (light * GREYS).round() / GREYS;
             [0.9 * grey, 0.96 * grey, 1.02 * grey].map(|c| c.min(255.0).round() as u8)
         });
         sheet::edges(canvas, panel, &shown);

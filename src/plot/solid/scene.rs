@@ -1,7 +1,7 @@
 //! What a program does in space, from the text that was proven: every move of the read-back with its line and use, the
 //! surfaces it finishes, its blank and its cutters.
 
-use crate::cl::{Cl, Operation, RecordKind};
+use crate::cl::{Cl, Finish, Operation, RecordKind};
 use crate::driver::Output;
 use crate::geom::curve::CurveRef;
 use crate::geom::{Point2, Point3};
@@ -155,7 +155,7 @@ impl<'a> Scene<'a> {
             Some(RecordKind::Contour(_)) if block.piece.is_none() => Use::Entry,
             _ if plunges => Use::Entry,
             _ if rough => Use::Rough,
-            Some(RecordKind::Linear(_)) if operation.is_some_and(finishes) => Use::Entry,
+            Some(RecordKind::Linear(_)) if operation.is_some_and(over_surface) => Use::Entry,
             _ => Use::Cut,
         }
     }
@@ -189,21 +189,24 @@ impl<'a> Scene<'a> {
         (number as usize).checked_sub(1).and_then(|n| self.text.lines().nth(n)).unwrap_or("")
     }
 
-    /// Whether a surface is finished.
-    pub(in crate::plot) fn finishes_surface(&self) -> bool {
-        self.cl.operations.iter().any(finishes)
+    /// Operations whose proof tells what they leave on a surface, with their index.
+    pub(in crate::plot) fn finished(&self) -> impl Iterator<Item = (usize, &'a Operation, &'a Finish)> {
+        let proofs = self.certificate.operations.iter().map(|o| o.surface.is_some());
+        let operations = self.cl.operations.iter().enumerate().zip(proofs);
+        let proven = operations.filter_map(|(operation, proven)| proven.then_some(operation));
+        proven.filter_map(|(i, o)| o.guard.surface.as_ref().map(|f| (i, o, f)))
     }
 
     /// Whether a move goes up or down while it goes across, or a surface is finished: a plan view does not show it all.
     pub(in crate::plot) fn is_solid(&self) -> bool {
-        self.finishes_surface() || self.moves.iter().any(|(_, m)| !m.rapid && !m.in_cycle && climbs(m))
+        self.cl.operations.iter().any(over_surface) || self.moves.iter().any(|(_, m)| !m.rapid && !m.in_cycle && climbs(m))
     }
 }
 
 /// Ends of moves are one point when they are nearer than this, mm.
 const NEAR: f64 = 1e-9;
 
-fn finishes(operation: &Operation) -> bool {
+fn over_surface(operation: &Operation) -> bool {
     operation.guard.surface.is_some()
 }
 

@@ -30,7 +30,7 @@ fn a_surface_has_a_path_and_a_map_of_what_is_left() {
         assert_eq!(drawn, figure(&what, &build).expect("a figure"));
     }
     let path = figure(&What::Path, &build).expect("a figure");
-    for text in ["from above", "links between passes", "T1 ball-end ⌀6"] {
+    for text in ["from above", "links between passes", "T1 ball-end Ø6"] {
         assert!(path.svg().contains(text), "{text}");
     }
 }
