@@ -72,7 +72,7 @@ mod tests {
                 let (x, y) = fitted.point(Point3::new(pick(0), pick(1), pick(2)));
                 assert!((100.0..=500.0).contains(&x) && (50.0..=350.0).contains(&y), "{x} {y}");
             }
-            assert!(fitted.depth(high) > fitted.depth(low));
+            assert!(fitted.depth(low + Vec3::z()) > fitted.depth(low));
         }
     }
 }

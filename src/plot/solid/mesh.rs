@@ -126,7 +126,11 @@ fn largest(
         let by = crate::math::count(k) / crate::math::count(WITHIN) - 0.5 + 0.5 / crate::math::count(WITHIN);
         (uv[axis] + by * step[axis]).clamp(0.0, 1.0)
     };
-    let mut most: Option<Left> = None;
+    let mut most = Some(remaining.at(patch, uv, near)?);
+    if most.is_some_and(|m| m.height > remaining.little()) {
+        // Far from the surface no ridge matters.
+        return most;
+    }
     for k in 0..WITHIN * WITHIN {
         let left = remaining.at(patch, [shift(k / WITHIN, 0), shift(k % WITHIN, 1)], near)?;
         if most.is_none_or(|m| left.height.abs() > m.height.abs()) {

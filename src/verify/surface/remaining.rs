@@ -57,6 +57,11 @@ impl<'a> Remaining<'a> {
         let field = |most: f64| Field::new(operation, &sweep.finish, &sweep.moves, (most, 1.0));
         Remaining { little, close: field(little), all: field(sweep.finish.radius) }
     }
+    /// What is told quickly, mm.
+    #[must_use]
+    pub fn little(&self) -> f64 {
+        self.little
+    }
     /// What is left at a place of a patch; `None` where the surface has no normal or no move comes near.
     #[must_use]
     pub fn at(&self, patch: usize, uv: [f64; 2], near: &mut Vec<u32>) -> Option<Left> {
