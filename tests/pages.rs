@@ -55,7 +55,12 @@ fn opened(file: &Path, hash: &str, how: &[&str]) -> (String, String) {
     let done = Command::new("chromium")
         .args(["--headless=new", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader"])
         .args(["--enable-unsafe-swiftshader", "--hide-scrollbars", "--window-size=1200,800"])
-        .args(["--disable-background-networking", "--no-first-run", "--enable-logging=stderr", "--disable-dev-shm-usage"])
+        .args([
+            "--disable-background-networking",
+            "--no-first-run",
+            "--enable-logging=stderr",
+            "--disable-dev-shm-usage",
+        ])
         .args(["--virtual-time-budget=3000"])
         .arg(format!("--user-data-dir={}", profile.display()))
         .args(how)

@@ -11,8 +11,8 @@ mod chart;
 mod deviation;
 mod diagrams;
 mod follower;
-mod path;
 mod page;
+mod path;
 mod png;
 mod solid;
 #[cfg(test)]
@@ -84,9 +84,9 @@ impl core::fmt::Display for PlotError {
             PlotError::NoSurface => {
                 f.write_str("the program finishes no surface: there is no deviation to show in space")
             }
-            PlotError::FlatOnly => {
-                f.write_str("the picture of a cam is a .svg or a .png; its path and blank are in `--what path`")
-            }
+            PlotError::FlatOnly => f.write_str(
+                "the picture of a cam is a .svg or a .png; its path and blank are in `--what path`",
+            ),
             PlotError::Render(reason) => write!(f, "the picture cannot be rendered: {reason}"),
         }
     }

@@ -232,9 +232,9 @@ fn edge(curve: &dyn crate::geom::curve::PlanarCurve) -> String {
     const PER_SPAN: usize = 24;
     let share = |i: usize| crate::math::count(i) / crate::math::count(PER_SPAN);
     let spans = crate::geom::curve::spans(curve);
-    let points = spans.into_iter().flat_map(|(span, a, b)| {
-        (0..=PER_SPAN).map(move |i| curve.at_in(span, a + (b - a) * share(i)).p)
-    });
+    let points = spans
+        .into_iter()
+        .flat_map(|(span, a, b)| (0..=PER_SPAN).map(move |i| curve.at_in(span, a + (b - a) * share(i)).p));
     floats(points.flat_map(|p| [p.x, p.y]))
 }
 

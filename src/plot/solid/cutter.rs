@@ -20,7 +20,8 @@ pub(in crate::plot) fn outline(tool: &Tool) -> Vec<(f64, f64)> {
     } else {
         points.extend(rounded(radius, corner));
     }
-    let widens = if tool.kind == CutterKind::Taper { math::tan(tool.profile[3].clamp(0.0, 1.4)) } else { 0.0 };
+    let widens =
+        if tool.kind == CutterKind::Taper { math::tan(tool.profile[3].clamp(0.0, 1.4)) } else { 0.0 };
     points.push((radius + widens * (length - corner), length));
     points.push((0.0, length));
     points

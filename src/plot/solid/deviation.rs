@@ -34,7 +34,9 @@ pub(super) fn deviation(scene: &Scene<'_>) -> Result<Figure, PlotError> {
     let mut sheet = Sheet::new(scene, &[mesh]);
     sheet.subtitle(&format!("{} · what {} leaves on the surface", sheet::summary(scene), operation.name));
     let step = (range.high - range.low) / COLOURS;
-    let steps = |left: Option<f64>| range.colour(left.map(|v| if range.holds(v) { (v / step).round() * step } else { v }));
+    let steps = |left: Option<f64>| {
+        range.colour(left.map(|v| if range.holds(v) { (v / step).round() * step } else { v }))
+    };
     let is_side = |panel: &Panel| panel.at.0 > LEFT;
     sheet.views(|canvas, panel| {
         let side = is_side(panel);
@@ -176,7 +178,11 @@ fn list(sheet: &mut Sheet<'_>, marks: &[Mark], top: f64) -> f64 {
         y += 6.0;
     }
     if marks.is_empty() {
-        sheet.canvas.text((MARKS, y + 18.0), "none above 0.001 µm", theme::text(14.0, theme::INK, Anchor::Start));
+        sheet.canvas.text(
+            (MARKS, y + 18.0),
+            "none above 0.001 µm",
+            theme::text(14.0, theme::INK, Anchor::Start),
+        );
         y += 18.0;
     }
     y

@@ -47,7 +47,7 @@ pub(in crate::plot) fn meshes(scene: &Scene<'_>, places: usize, measured: bool) 
             let own = own.filter(|(s, _)| measured && s.operation.is_some_and(|o| o as usize == index));
             let moves: Vec<_> = own.map(|(_, (line, cut))| (*line, cut)).collect();
             let sweep = Sweep::new(finish, &moves);
-            let remaining = measured.then(|| Remaining::new(operation, finish, &sweep, allowed(operation, finish)));
+            let remaining = measured.then(|| Remaining::new(operation, &sweep, allowed(operation, finish)));
             Mesh { operation: index, grids: grids(finish, places, remaining.as_ref()) }
         })
         .collect()
@@ -91,12 +91,7 @@ fn extent(patch: &Patch) -> [f64; 2] {
     })
 }
 
-fn grid(
-    patch: &Patch,
-    index: usize,
-    [rows, columns]: [usize; 2],
-    remaining: Option<&Remaining<'_>>,
-) -> Grid {
+fn grid(patch: &Patch, index: usize, [rows, columns]: [usize; 2], remaining: Option<&Remaining<'_>>) -> Grid {
     let step = [rows, columns].map(|n| 1.0 / crate::math::count(n.max(2) - 1));
     let row = |i: usize| -> Vec<Place> {
         let mut near = Vec::new();

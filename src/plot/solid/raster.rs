@@ -58,8 +58,7 @@ impl Raster {
         for grid in meshes.iter().flat_map(|m| &m.grids) {
             for i in 1..grid.rows {
                 for j in 1..grid.columns {
-                    let places =
-                        [(i - 1, j - 1), (i - 1, j), (i, j - 1), (i, j)].map(|(a, b)| grid.at(a, b));
+                    let places = [(i - 1, j - 1), (i - 1, j), (i, j - 1), (i, j)].map(|(a, b)| grid.at(a, b));
                     let [Some(a), Some(b), Some(c), Some(d)] = places else { continue };
                     let [a, b, c, d] = [a, b, c, d].map(corner);
                     raster.triangle(a, b, c);
@@ -90,7 +89,10 @@ impl Raster {
                 let v = ((x - a.x) * (c.y - a.y) - (c.x - a.x) * (y - a.y)) / twice;
                 let w = ((b.x - a.x) * (y - a.y) - (x - a.x) * (b.y - a.y)) / twice;
                 if v >= -1e-9 && w >= -1e-9 && v + w <= 1.0 + 1e-9 {
-                    self.take(row * self.columns + column, blend([&a.seen, &b.seen, &c.seen], [1.0 - v - w, v, w]));
+                    self.take(
+                        row * self.columns + column,
+                        blend([&a.seen, &b.seen, &c.seen], [1.0 - v - w, v, w]),
+                    );
                 }
             }
         }

@@ -199,7 +199,8 @@ impl<'a> Scene<'a> {
 
     /// Whether a move goes up or down while it goes across, or a surface is finished: a plan view does not show it all.
     pub(in crate::plot) fn is_solid(&self) -> bool {
-        self.cl.operations.iter().any(over_surface) || self.moves.iter().any(|(_, m)| !m.rapid && !m.in_cycle && climbs(m))
+        self.cl.operations.iter().any(over_surface)
+            || self.moves.iter().any(|(_, m)| !m.rapid && !m.in_cycle && climbs(m))
     }
 }
 
@@ -304,11 +305,7 @@ impl<'a> Blocks<'a> {
             }
             inside
         });
-        Blocks {
-            target,
-            lines: printed.map(|(i, l)| (*l, i)).collect(),
-            operations: operations.collect(),
-        }
+        Blocks { target, lines: printed.map(|(i, l)| (*l, i)).collect(), operations: operations.collect() }
     }
     fn of(&self, line: u32) -> Option<&'a Block> {
         let next = self.lines.partition_point(|((first, _), _)| *first <= line);

@@ -72,7 +72,11 @@ impl<'a> Sheet<'a> {
         let (panel, unit) = (&self.side, self.scene.units.in_mm());
         let at = (panel.at.0 + 58.0, panel.at.1 + panel.size.1 - 46.0);
         let zero = panel.camera.point(Point3::origin());
-        let axes = [("X", Point3::new(1.0, 0.0, 0.0)), ("Y", Point3::new(0.0, 1.0, 0.0)), ("Z", Point3::new(0.0, 0.0, 1.0))];
+        let axes = [
+            ("X", Point3::new(1.0, 0.0, 0.0)),
+            ("Y", Point3::new(0.0, 1.0, 0.0)),
+            ("Z", Point3::new(0.0, 0.0, 1.0)),
+        ];
         for (name, unit) in axes {
             let end = panel.camera.point(unit);
             let way = |length: f64| {
@@ -229,7 +233,8 @@ pub(super) fn blanks(canvas: &mut Canvas, panel: &Panel, scene: &Scene<'_>) {
                 let at = |k: usize| crate::math::sin_cos(crate::math::TAU * crate::math::count(k) / 96.0);
                 return (0..=96).map(at).map(|(s, c)| point(radius * c, radius * s, z)).collect();
             }
-            let corners = [(low.x, low.y), (high.x, low.y), (high.x, high.y), (low.x, high.y), (low.x, low.y)];
+            let corners =
+                [(low.x, low.y), (high.x, low.y), (high.x, high.y), (low.x, high.y), (low.x, low.y)];
             corners.map(|(x, y)| point(x, y, z)).to_vec()
         };
         for z in [low.z, high.z] {
