@@ -215,7 +215,7 @@ fn over_surface(operation: &Operation) -> bool {
 fn climbs(cut: &TraceMove) -> bool {
     match &cut.path {
         TracePath::Line { from, to } => (cut.z.1 - cut.z.0).abs() > 1e-6 && (to - from).norm() > 1e-6,
-        TracePath::Tilted(_) => true,
+        TracePath::Tilted(_) | TracePath::Space(_) => true,
         _ => false,
     }
 }
@@ -261,6 +261,10 @@ fn beyond_start(cut: &TraceMove) -> Vec<Point3> {
         TracePath::Tilted(arc) => {
             let n = steps(arc.sweep);
             (1..n).map(|i| arc.at(share(i, n))).collect()
+        }
+        TracePath::Space(curve) => {
+            let n = (curve.points.len() * 8).min(MOST as usize);
+            (1..n).map(|i| curve.at(share(i, n))).collect()
         }
         TracePath::Spiral { radius, angle } => {
             let n = steps(angle.1 - angle.0);
