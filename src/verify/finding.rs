@@ -101,7 +101,8 @@ impl Finding {
     /// The same, put down to the `INSERT` block with this index and line.
     pub(super) fn due_to_insert(&self, (block, line): (usize, u32)) -> Self {
         let text = Text::default().words("after this block the control does not do what the program says");
-        let mut said = Text::default().words(format!("line {}: ", self.line));
+        let place = if self.line == 0 { String::new() } else { format!("line {}: ", self.line) };
+        let mut said = Text::default().words(place);
         said.0.extend(self.text.0.iter().cloned());
         let code = &crate::diag::codes::planning::INSERT_SPOILS;
         Finding::new(code, line, Some(block), text)
@@ -141,7 +142,12 @@ impl<'a> Reporter<'a> {
         }
         let unit = self.cl.units;
         let post = &self.target.capabilities.name;
-        let message = format!("line {} of the {post} program: {}", finding.line, finding.text.render(unit));
+        let text = finding.text.render(unit);
+        let message = match finding.line {
+            // What is missing stands in no line.
+            0 => format!("in the {post} program: {text}"),
+            line => format!("line {line} of the {post} program: {text}"),
+        };
         let mut diagnostic = match self.origin(finding) {
             Some(origin) => with_calls(Diagnostic::new(finding.code, origin.span, message), origin),
             None => Diagnostic::global(finding.code, message),
