@@ -17,6 +17,7 @@ use std::sync::Arc;
 
 use crate::arena::{Arena, Handle};
 use crate::geom::curve::CurveRef;
+use crate::geom::surface::heights::Blank;
 use crate::geom::surface::{Cutter, SurfaceTree, Track};
 use crate::geom::{Point3, Side, Vec3};
 use crate::ir::{Band, Coolant, Feed, Interpolation, Origin, Spindle, Tool};
@@ -93,6 +94,8 @@ pub struct Guard {
     pub blank_radius: Option<f64>,
     /// The surface that is finished, if one is.
     pub surface: Option<Finish>,
+    /// What is cleared down to it, where it is not finished but roughed.
+    pub clearing: Option<Clearing>,
     /// Height above which everything is clear, mm (part's top).
     pub top: f64,
     /// Bottom of the operation, mm.
@@ -112,6 +115,19 @@ pub struct Finish {
     pub leave: f64,
     /// Largest height of the cusps between passes, mm, where that was asked for.
     pub cusp: Option<f64>,
+}
+
+/// A blank that is cleared in levels down to a surface.
+#[derive(Debug, Clone)]
+pub struct Clearing {
+    /// Its outline.
+    pub blank: Blank,
+    /// Its top, mm.
+    pub top: f64,
+    /// Largest depth of a level, mm.
+    pub step: f64,
+    /// Height of each level, mm, and the area in which the tip may be there, mm².
+    pub levels: Vec<(f64, f64)>,
 }
 
 /// A wall as the cutter's centre sees it.

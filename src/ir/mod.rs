@@ -286,8 +286,10 @@ pub enum StepKind {
     Profile(Profile),
     /// `ROUGH` of a plate cam.
     RoughCam(RoughCam),
-    /// `SURFAC`.
+    /// `SURFAC`, `ROUGH` of a net in one pass.
     Surface(Surface),
+    /// `ROUGH` of a net in levels.
+    RoughNet(RoughNet),
 }
 
 /// `CYCLE/ …`.
@@ -468,6 +470,33 @@ pub enum Spacing {
     Cusp(f64),
     /// Largest distance, mm.
     Step(f64),
+}
+
+/// `ROUGH/ net, LEVELS …`.
+#[derive(Debug, Clone)]
+pub struct RoughNet {
+    /// The user's label.
+    pub name: Option<String>,
+    /// The surface.
+    pub net: Handle<NetEntity>,
+    /// The blank.
+    pub stock: Handle<Stock>,
+    /// Largest depth of a level, mm.
+    pub step: f64,
+    /// Largest distance of passes, mm.
+    pub width: f64,
+    /// Stock left on the surface, mm.
+    pub leave: f64,
+    /// Steepest way down into material, radians.
+    pub ramp: f64,
+    /// Climb or conventional.
+    pub cut: Cut,
+    /// The cutter.
+    pub tool: Handle<Tool>,
+    /// Tolerance.
+    pub band: Band,
+    /// Clearance plane, mm above Z0.
+    pub clearance: f64,
 }
 
 /// `SURFAC/`, and `ROUGH/ net, OFFSET`.

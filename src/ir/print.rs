@@ -7,8 +7,8 @@ use core::fmt::Write as _;
 
 use super::{
     Along, CamEntity, Coolant, CurveEntity, Cut, CutterKind, Entry, Feed, Flank, Interpolation, Machine,
-    NetEntity, Origin, Profile, ProfileTarget, Program, RoughCam, Spacing, Spindle, StepKind, Stock,
-    StockShape, Surface, Tool,
+    NetEntity, Origin, Profile, ProfileTarget, Program, RoughCam, RoughNet, Spacing, Spindle, StepKind,
+    Stock, StockShape, Surface, Tool,
 };
 use crate::arena::Handle;
 use crate::geom::cam::Rotation;
@@ -269,6 +269,7 @@ fn step_text(kind: &StepKind) -> String {
         StepKind::Profile(profile) => profile_text(profile),
         StepKind::RoughCam(rough) => rough_text(rough),
         StepKind::Surface(surface) => surface_text(surface),
+        StepKind::RoughNet(rough) => rough_net_text(rough),
     }
 }
 
@@ -318,6 +319,24 @@ fn surface_text(surface: &Surface) -> String {
         num(surface.band.into),
         num(surface.band.out),
         num(surface.clearance)
+    )
+}
+
+fn rough_net_text(rough: &RoughNet) -> String {
+    format!(
+        "rough levels{} {:?} {:?} step {} width {} leave {} ramp {} {} tool {:?} intol {} outtol {} clearance {}",
+        named(rough.name.as_ref()),
+        rough.net,
+        rough.stock,
+        num(rough.step),
+        num(rough.width),
+        num(rough.leave),
+        num(rough.ramp),
+        cut_text(rough.cut),
+        rough.tool,
+        num(rough.band.into),
+        num(rough.band.out),
+        num(rough.clearance)
     )
 }
 

@@ -15,6 +15,7 @@ mod surface;
 #[cfg(test)]
 mod tests;
 mod track;
+mod waterline;
 
 use crate::arena::Handle;
 use crate::cl::{Cl, RecordKind};
@@ -79,6 +80,7 @@ impl<'a> Planner<'a> {
             StepKind::Profile(profile) => self.profile(profile, origin),
             StepKind::RoughCam(rough) => self.rough(rough, origin),
             StepKind::Surface(surface) => self.surface(surface, origin),
+            StepKind::RoughNet(rough) => self.rough_net(rough, origin),
         }
     }
 

@@ -34,6 +34,7 @@ impl Analyser<'_> {
         if let Some(m) = m.and_then(|m| self.tracut_arguments(statement, m)) {
             match statement.word {
                 "ROUGH" if m.form == "offset" => self.rough_offset(&m, name),
+                "ROUGH" if m.form == "levels" => self.rough_levels(&m, name),
                 "ROUGH" => self.rough(&m, name),
                 "SURFAC" => self.surfac(&m, name),
                 _ => self.profil(&m, name),
@@ -330,7 +331,7 @@ fn interpolation(m: &Matched) -> Interpolation {
     }
 }
 
-fn cut(m: &Matched) -> Cut {
+pub(super) fn cut(m: &Matched) -> Cut {
     if m.word("cut") == Some("CONVEN") { Cut::Conventional } else { Cut::Climb }
 }
 

@@ -6,8 +6,8 @@ use crate::diag::codes::{geometry, planning, semantics as codes};
 use crate::geom::Point3;
 use crate::geom::surface::curvature::most_concave;
 use crate::geom::surface::{Net, NetIssue};
-use crate::ir::{Along, CutterKind, NetEntity, Spacing, StepKind, StockShape, Surface, Tool};
-use crate::math::count;
+use crate::ir::{Along, CutterKind, NetEntity, RoughNet, Spacing, StepKind, StockShape, Surface, Tool};
+use crate::math::{DEG, count};
 use crate::source::Span;
 use crate::units::{Dim, Quantity};
 
@@ -19,6 +19,8 @@ use super::{Analyser, limits};
 
 /// Patches that meet at a smaller angle are smooth enough, degrees.
 const SMOOTH: f64 = 0.01;
+/// Steepest way down into material, degrees.
+const RAMP: f64 = 3.0;
 /// Height of the cusps of a roughing pass as a share of what it leaves.
 const ROUGH_CUSP: f64 = 0.2;
 /// Accuracy of the smallest concave radius, mm.
@@ -205,6 +207,31 @@ impl Analyser<'_> {
             rough: true,
         };
         self.step(StepKind::Surface(surface));
+        self.moved();
+    }
+
+    /// `ROUGH/ net, LEVELS, STOCK, b, STEP, s …`.
+    pub(super) fn rough_levels(&mut self, m: &Matched, name: Option<String>) {
+        let tool = self.ready("ROUGH", m).and_then(|tool| self.ball(m, tool));
+        let (Some(tool), Some(Entity::Net(net)), Some(Entity::Stock(stock)), Some(step)) =
+            (tool, m.entity("net"), m.entity("stock"), m.number("step"))
+        else {
+            return;
+        };
+        let rough = RoughNet {
+            name,
+            net: *net,
+            stock: *stock,
+            step,
+            width: m.number("width").unwrap_or(step),
+            leave: m.number("leave").unwrap_or(self.state.thick),
+            ramp: m.number("ramp").unwrap_or(RAMP) * DEG,
+            cut: super::operation::cut(m),
+            tool,
+            band: self.state.band,
+            clearance: self.state.clearance,
+        };
+        self.step(StepKind::RoughNet(rough));
         self.moved();
     }
 

@@ -105,6 +105,38 @@ pub struct OperationProof {
     /// The finished surface, where the operation finishes one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub surface: Option<SurfaceProof>,
+    /// The blank that is cleared, where the operation clears one down to a surface.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clearing: Option<ClearingProof>,
+}
+
+/// What was measured of a blank that is cleared in levels.
+#[derive(Debug, Clone, Serialize)]
+pub struct ClearingProof {
+    /// The levels, from above.
+    pub levels: Vec<ClearedLevel>,
+    /// Length of the tip's path at feed, mm.
+    pub cut: f64,
+    /// Part of it on which nothing is cut, mm; an estimate.
+    pub air: f64,
+    /// Volume that is cut, mm³; an estimate.
+    pub volume: f64,
+    /// Volume over the section of a full cut as deep as a level, mm: shorter paths exist only where stairs deeper than that are
+    /// cut at once.
+    pub bound: f64,
+    /// At least this stays on the surface everywhere, mm.
+    pub left: f64,
+}
+
+/// One level of a clearing.
+#[derive(Debug, Clone, Serialize)]
+pub struct ClearedLevel {
+    /// Height of the tip, mm.
+    pub z: f64,
+    /// Area in which the tip may be, mm².
+    pub area: f64,
+    /// Path at feed at this height, mm.
+    pub length: f64,
 }
 
 /// What was proven of a finished surface.
@@ -197,6 +229,7 @@ impl OperationProof {
             blocks: 0,
             pieces: Vec::new(),
             surface: None,
+            clearing: None,
         }
     }
 }

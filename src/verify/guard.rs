@@ -120,6 +120,10 @@ impl<'a, 'r> Guards<'a, 'r> {
     /// Below the part's top a rapid may go straight up, straight down where the cutter has been as deep before, or
     /// beside the blank.
     fn rapid(&self, guard: &Guard, placed: &Placed<'_>, primitives: &[Primitive]) -> Option<Finding> {
+        if guard.clearing.is_some() {
+            // What is left of the blank is known there: `surface::clearing` looks at all of it.
+            return None;
+        }
         let cut = placed.cut;
         let in_plane = primitives.iter().any(|p| p.bounds()[0] > 0.0);
         if !in_plane && cut.z.1 >= cut.z.0 {

@@ -5,6 +5,7 @@ use sha2::{Digest, Sha256};
 use super::Proofs;
 use super::certificate::{Certificate, Moves, OperationProof, RAPID_RATE, TIME_MODEL, Time, VERSION};
 use super::pieces::Proof;
+use super::surface::Found;
 use super::{ACCURACY, Case, Emitted};
 use crate::readback::{EventKind, Trace, TracePath};
 
@@ -105,10 +106,18 @@ fn operations(case: &Case<'_>, proofs: Proofs) -> Vec<OperationProof> {
     }
     for surface in proofs.surfaces {
         let Some(of) = operations.get_mut(surface.operation) else { continue };
-        of.into = Some(surface.proof.into);
-        of.out = Some(surface.proof.out);
-        of.blocks = surface.proof.blocks;
-        of.surface = Some(surface.proof);
+        match surface.proof {
+            Found::Finished(proof) => {
+                of.into = Some(proof.into);
+                of.out = Some(proof.out);
+                of.blocks = proof.blocks;
+                of.surface = Some(proof);
+            }
+            Found::Cleared(into, proof) => {
+                of.into = Some(into);
+                of.clearing = Some(proof);
+            }
+        }
     }
     operations
 }

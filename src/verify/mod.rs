@@ -59,8 +59,8 @@ mod tests;
 mod tree;
 
 pub use certificate::{
-    Certificate, Deviation, Moves, OperationProof, PieceProof, Place, RAPID_RATE, SurfaceProof, TIME_MODEL,
-    Time, VERSION,
+    Certificate, ClearedLevel, ClearingProof, Deviation, Moves, OperationProof, PieceProof, Place,
+    RAPID_RATE, SurfaceProof, TIME_MODEL, Time, VERSION,
 };
 
 pub(crate) use surface::{Left, Remaining, Sweep};

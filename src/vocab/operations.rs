@@ -134,7 +134,7 @@ pub const MOTION: &[Statement] = &[
     motion("TLAXIS", "tool axis of the points that follow, which must be Z", "TLAXIS/ 0, 0, 1", TOOL_AXIS),
 ];
 
-const CUT: Choices = choices(
+pub(super) const CUT: Choices = choices(
     "cut",
     &[
         word("CLIMB", "climb milling: the edge enters at full chip thickness"),
@@ -223,7 +223,7 @@ const PROFIL: &[Form] = &[form(
     ],
 )];
 
-const ROUGH: &[Form] = &[CAM, super::roughing::OFFSET];
+const ROUGH: &[Form] = &[CAM, super::roughing::OFFSET, super::roughing::LEVELS];
 
 const CAM: Form = form(
     "cam",

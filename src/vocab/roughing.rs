@@ -1,7 +1,9 @@
 //! Roughing of nets: the forms of `ROUGH` that take one.
 
+use super::operations::CUT;
 use super::surfaces::{ALONG, ORDER};
-use super::{Choices, EntityKind, Form, Item, Kind, POSITIVE, form, value, with, word};
+use super::{Choices, EntityKind, Form, Item, Kind, NOT_NEGATIVE, POSITIVE, Range, form, value, with, word};
+use crate::units::Dim;
 
 const NET: Item = value("net", Kind::Entity(&[EntityKind::Net]), "the net");
 
@@ -31,4 +33,52 @@ pub(super) const OFFSET: Form = form(
         value("leave", POSITIVE, "length"),
     ],
     &[ORDER, ALONG, CUSP, STEP],
+);
+
+/// `ROUGH/ N1, LEVELS, STOCK, B1, STEP, 3, LEAVE, 0.5`.
+pub(super) const LEVELS: Form = form(
+    "levels",
+    "a net in levels from a blank: waterlines of the surface with what is left on it, cleared by rings",
+    &[NET, Item::Word("how", &[word("LEVELS", "planes, each cleared from the inside outwards")])],
+    &[
+        with(
+            "stock",
+            &[word("STOCK", "the blank")],
+            &[value("stock", Kind::Entity(&[EntityKind::Stock]), "stock")],
+            true,
+            "",
+        ),
+        with(
+            "step",
+            &[word(
+                "STEP",
+                "largest depth of a level, and largest distance of passes unless WIDTH gives that",
+            )],
+            &[value("step", POSITIVE, "length")],
+            true,
+            "",
+        ),
+        with(
+            "width",
+            &[word("WIDTH", "largest distance of passes")],
+            &[value("width", POSITIVE, "length")],
+            false,
+            "as STEP",
+        ),
+        with(
+            "leave",
+            &[word("LEAVE", "stock left on the surface")],
+            &[value("leave", NOT_NEGATIVE, "length")],
+            false,
+            "as THICK says",
+        ),
+        with(
+            "ramp",
+            &[word("RAMP", "steepest way down into material, 0.5 to 45 degrees")],
+            &[value("ramp", Kind::Number(Dim::ANGLE, Range::Within(0.5, 45.0)), "angle")],
+            false,
+            "3 degrees",
+        ),
+        CUT,
+    ],
 );

@@ -142,6 +142,27 @@ pub const ROUGH_TOO_DEEP: Code = Code {
     page: include_str!("../../../docs/diagnostics/W0532.md"),
 };
 
+/// there is no room for a helix.
+pub const NO_ROOM_FOR_HELIX: Code = Code {
+    id: "N0524",
+    title: "there is no room for a helix",
+    page: include_str!("../../../docs/diagnostics/N0524.md"),
+};
+
+/// roughing passes are wider than the cutter.
+pub const ROUGH_TOO_WIDE: Code = Code {
+    id: "E0545",
+    title: "roughing passes are wider apart than the cutter",
+    page: include_str!("../../../docs/diagnostics/E0545.md"),
+};
+
+/// there is nothing to clear.
+pub const NOTHING_TO_CLEAR: Code = Code {
+    id: "E0546",
+    title: "there is nothing to clear over the surface",
+    page: include_str!("../../../docs/diagnostics/E0546.md"),
+};
+
 /// a tapered cutter leaves a sloping wall.
 pub const TAPERED_WALL: Code = Code {
     id: "W0530",
@@ -227,6 +248,9 @@ pub const ALL: &[&Code] = &[
     &ROUNDED_END,
     &NO_ROOM_FOR_LEAD,
     &ROUGH_MATERIAL,
+    &NO_ROOM_FOR_HELIX,
+    &ROUGH_TOO_WIDE,
+    &NOTHING_TO_CLEAR,
     &ROUGH_TOO_DEEP,
     &TAPERED_WALL,
     &HOLDER_RUBS,

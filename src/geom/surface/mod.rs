@@ -7,6 +7,7 @@ pub mod curvature;
 pub mod cutter;
 pub mod drop;
 pub mod grid;
+pub mod heights;
 pub mod interval;
 pub mod net;
 pub mod patch;

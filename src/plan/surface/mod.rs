@@ -20,7 +20,7 @@ use crate::diag::codes::planning as codes;
 use crate::geom::Point3;
 use crate::geom::surface::curvature::{Concavity, most_concave};
 use crate::geom::surface::{Contact, Cutter, SurfaceTree, Track};
-use crate::ir::{Band, CutterKind, Origin, Spacing, Surface};
+use crate::ir::{Band, CutterKind, NetEntity, Origin, Spacing, Surface};
 use family::{Family, Leg};
 
 /// Accuracy of the smallest concave radius, mm.
@@ -39,8 +39,8 @@ impl Planner<'_> {
         let cutter = tool.solid().unwrap_or_else(|| Cutter::ball(radius));
         let reach = radius + surface.leave + surface.band.out;
         let tree = Arc::new(SurfaceTree::new(entity.net.clone(), reach));
-        let reachable = self.reachable(surface, &tree, origin);
-        let clear = self.clears(surface, &tree, origin);
+        let reachable = self.upright((surface.net, &tree), origin);
+        let clear = self.clears((surface.clearance, surface.leave, surface.stock_top), &tree, origin);
         let fits =
             reachable && self.fits(surface, &cutter, origin) && self.rests((surface, &tree), &cutter, origin);
         if !(fits && clear && ready.is_some()) {
@@ -160,12 +160,16 @@ impl Planner<'_> {
     }
 
     /// Every place must have a normal towards the tool.
-    fn reachable(&mut self, surface: &Surface, tree: &SurfaceTree, origin: Handle<Origin>) -> bool {
+    pub(super) fn upright(
+        &mut self,
+        (net, tree): (Handle<NetEntity>, &SurfaceTree),
+        origin: Handle<Origin>,
+    ) -> bool {
         if tree.is_upright() {
             return true;
         }
         let Some((p, [u, v])) = overhang(tree) else { return true };
-        let net = &self.program.nets[surface.net];
+        let net = &self.program.nets[net];
         let message = format!(
             "{} folds over, stands upright or has no normal at ({}, {}, {}), u {u:.4}, v {v:.4}: a cutter from above cannot reach it",
             net.name,
@@ -180,15 +184,21 @@ impl Planner<'_> {
         false
     }
 
-    fn clears(&mut self, surface: &Surface, tree: &SurfaceTree, origin: Handle<Origin>) -> bool {
-        let top = tree.bounds().1.z + surface.leave;
-        if surface.clearance > top.max(surface.stock_top.unwrap_or(top)) {
+    /// The clearance plane must be above the surface with what is left on it, and above the blank.
+    pub(super) fn clears(
+        &mut self,
+        (clearance, leave, stock_top): (f64, f64, Option<f64>),
+        tree: &SurfaceTree,
+        origin: Handle<Origin>,
+    ) -> bool {
+        let top = tree.bounds().1.z + leave;
+        let highest = top.max(stock_top.unwrap_or(top));
+        if clearance > highest {
             return true;
         }
-        let highest = top.max(surface.stock_top.unwrap_or(top));
         let message = format!(
             "the clearance plane is at Z {}, and the surface or its blank reaches up to Z {}",
-            self.show(surface.clearance),
+            self.show(clearance),
             self.show(highest)
         );
         let help = format!(

@@ -1,9 +1,10 @@
 //! Finished surfaces: the moves of the text, swept with the ball, against the exact surface.
 //!
 //! [`moves`] proves that no move goes deeper into the surface than `INTOL`, and that passes leave it by no more than
-//! `OUTTOL`; [`cover`] that the swept ball leaves nowhere more than the height of cusps and `OUTTOL` together.
+//! `OUTTOL`; [`clearing`] that rapids of a roughing are clear of what is left of the blank; [`cover`] that the swept ball leaves nowhere more than the height of cusps and `OUTTOL` together.
 
 mod capsule;
+mod clearing;
 mod cover;
 mod field;
 mod moves;
@@ -15,7 +16,7 @@ mod tile;
 
 pub use remaining::{Left, Remaining, Sweep};
 
-use super::certificate::{Deviation, SurfaceProof};
+use super::certificate::{ClearingProof, Deviation, SurfaceProof};
 use super::finding::Finding;
 use super::{Case, Placed};
 use crate::cl::Finish;
@@ -24,7 +25,24 @@ use crate::cl::Finish;
 #[derive(Debug)]
 pub(super) struct Proof {
     pub operation: usize,
-    pub proof: SurfaceProof,
+    pub proof: Found,
+}
+
+/// It depends on what the operation is for.
+#[derive(Debug)]
+pub(super) enum Found {
+    Finished(SurfaceProof),
+    /// With the deepest way into what is to be left.
+    Cleared(Deviation, ClearingProof),
+}
+
+/// Any move of the ball's centre, as straight ways.
+#[derive(Debug)]
+struct Moved {
+    ways: Vec<(crate::geom::Point3, crate::geom::Point3)>,
+    line: u32,
+    block: Option<usize>,
+    rapid: bool,
 }
 
 /// A straight move of the ball's centre along the surface.
@@ -45,24 +63,33 @@ pub(super) fn all(case: &Case<'_>) -> (Vec<Finding>, Vec<Proof>) {
         let own: Vec<Placed<'_>> =
             case.moves.iter().filter(|p| case.context(p.block).operation == Some(index)).copied().collect();
         let swept = moves::check(case, operation, finish, &own, &mut findings);
-        let cover = if finish.cutter.is_ball() {
-            cover::check(operation, finish, &swept.passes, &mut findings)
-        } else {
-            remains::check(finish, &swept.passes)
+        let proof = match &operation.guard.clearing {
+            Some(clearing) => {
+                let into = deviation(&swept.into);
+                let proof = clearing::check(operation, (finish, clearing), &swept.moves, &mut findings);
+                let left = (finish.leave - into.value).max(0.0);
+                Found::Cleared(into, ClearingProof { left, ..proof })
+            }
+            None => {
+                let cover = if finish.cutter.is_ball() {
+                    cover::check(operation, finish, &swept.passes, &mut findings)
+                } else {
+                    remains::check(finish, &swept.passes)
+                };
+                Found::Finished(proof(finish, &swept, &cover))
+            }
         };
-        proofs.push(Proof { operation: index, proof: proof(finish, &swept, &cover) });
+        proofs.push(Proof { operation: index, proof });
     }
     (findings, proofs)
 }
 
+fn deviation(e: &moves::Worst) -> Deviation {
+    Deviation { value: e.value.max(0.0), line: e.line, x: e.at.x, y: e.at.y, z: e.at.z }
+}
+
 fn proof(finish: &Finish, swept: &moves::Measured, cover: &cover::Cover) -> SurfaceProof {
-    let at = |e: &moves::Worst| Deviation {
-        value: e.value.max(0.0),
-        line: e.line,
-        x: e.at.x,
-        y: e.at.y,
-        z: e.at.z,
-    };
+    let at = deviation;
     SurfaceProof {
         radius: finish.radius,
         leave: finish.leave,

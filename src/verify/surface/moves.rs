@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::Swept;
+use super::{Moved, Swept};
 use crate::cl::{Finish, Operation, RecordKind};
 use crate::diag::codes::verification as codes;
 use crate::geom::Point3;
@@ -35,6 +35,8 @@ impl Worst {
 #[derive(Debug)]
 pub(super) struct Measured {
     pub passes: Vec<Swept>,
+    /// All moves with a known start.
+    pub moves: Vec<Moved>,
     pub runs: u32,
     /// Length of the tip's path along passes, mm.
     pub length: f64,
@@ -44,6 +46,12 @@ pub(super) struct Measured {
 
 /// Moves with less than this between are told to be clear by boxes alone, mm.
 const CLEAR: f64 = 1.0;
+
+/// Chords of arcs leave them by this at first, and by this at last, mm.
+const COARSEST: f64 = 2e-3;
+const FINEST: f64 = 1e-7;
+/// Chords of arcs that are swept through the stock, mm.
+const SIMULATED: f64 = 2e-3;
 
 /// Largest distances are told exactly where they are more than this share of `OUTTOL`; others are sampled.
 const OFF: f64 = 0.9;
@@ -61,12 +69,22 @@ pub(super) fn check(
     let along = |i: usize| passes[i] && i.checked_sub(1).is_some_and(|before| passes[before]);
     let results: Vec<One> =
         own.par_iter().enumerate().map(|(i, p)| one(case, operation, finish, p, along(i))).collect();
-    let mut measured =
-        Measured { passes: Vec::new(), runs: 0, length: 0.0, into: Worst::NONE, out: Worst::NONE };
+    let mut measured = Measured {
+        passes: Vec::new(),
+        moves: Vec::new(),
+        runs: 0,
+        length: 0.0,
+        into: Worst::NONE,
+        out: Worst::NONE,
+    };
     let mut record = None;
     for (placed, found) in own.iter().zip(results) {
         measured.into.take(found.into);
         findings.extend(found.findings);
+        if operation.guard.clearing.is_some() {
+            let (line, block, rapid) = (placed.line, placed.block, placed.cut.rapid);
+            measured.moves.push(Moved { ways: found.ways, line, block, rapid });
+        }
         if let Some((swept, out)) = found.pass {
             measured.out.take(out);
             measured.length += (swept.to - swept.from).norm();
@@ -83,6 +101,8 @@ struct One {
     into: Worst,
     pass: Option<(Swept, Worst)>,
     findings: Vec<Finding>,
+    /// Ways of the ball's centre, where a clearing wants them.
+    ways: Vec<(Point3, Point3)>,
 }
 
 /// The CL record that a move expresses.
@@ -98,7 +118,7 @@ fn is_pass(case: &Case<'_>, placed: &Placed<'_>) -> bool {
 
 fn one(case: &Case<'_>, operation: &Operation, finish: &Finish, placed: &Placed<'_>, pass: bool) -> One {
     let cut = placed.cut;
-    let mut result = One { into: Worst::NONE, pass: None, findings: Vec::new() };
+    let mut result = One { into: Worst::NONE, pass: None, findings: Vec::new(), ways: Vec::new() };
     if !cut.known.iter().all(|k| *k) {
         return result;
     }
@@ -106,12 +126,21 @@ fn one(case: &Case<'_>, operation: &Operation, finish: &Finish, placed: &Placed<
     let allowed = if cut.rapid { 0.0 } else { operation.band.into };
     let smoothing = if cut.rapid { 0.0 } else { cut.path_tolerance };
     debug_assert!(!pass || is_pass(case, placed));
-    for (from, to) in chords(placed) {
-        let (from, to) = (raised(finish, from), raised(finish, to));
-        if !pass && clear(finish, from, to, ball) {
-            continue;
+    if operation.guard.clearing.is_some() {
+        let ways = within(placed, SIMULATED).ways;
+        result.ways = ways.into_iter().map(|(from, to)| (raised(finish, from), raised(finish, to))).collect();
+    }
+    if !pass {
+        let (into, held) = deepest(finish, placed, allowed - smoothing);
+        result.into.take(into);
+        if !held {
+            result.findings.push(gouge(operation, placed, &into, allowed));
         }
-        let little = if pass { ball + OFF * operation.band.out } else { f64::INFINITY };
+        return result;
+    }
+    for (from, to) in within(placed, FINEST).ways {
+        let (from, to) = (raised(finish, from), raised(finish, to));
+        let little = ball + OFF * operation.band.out;
         let question = Question { enough: ball, little, accuracy: 0.5 * ACCURACY };
         let found = extremes(&finish.tree, &finish.cutter, from, to, &question, None);
         let worst = |value: f64, at: Point3| Worst { value, line: placed.line, block: placed.block, at };
@@ -120,12 +149,10 @@ fn one(case: &Case<'_>, operation: &Operation, finish: &Finish, placed: &Placed<
         if !(into.value + smoothing <= allowed + ACCURACY) {
             result.findings.push(gouge(operation, placed, &into, allowed));
         }
-        if pass {
-            let out = worst(found.most.distance - ball, found.most.at);
-            result.findings.extend(excess(operation, placed, &found, &out, smoothing));
-            let swept = Swept { from, to, line: placed.line, block: placed.block };
-            result.pass = Some((swept, out));
-        }
+        let out = worst(found.most.distance - ball, found.most.at);
+        result.findings.extend(excess(operation, placed, &found, &out, smoothing));
+        let swept = Swept { from, to, line: placed.line, block: placed.block };
+        result.pass = Some((swept, out));
     }
     if pass && cut.rapid {
         let text = Text::default().words("a rapid along a surface");
@@ -139,6 +166,32 @@ pub(super) fn raised(finish: &Finish, p: Point3) -> Point3 {
     finish.cutter.reference(p)
 }
 
+/// How deep a move that is no pass goes into the surface at most, and whether that is allowed. Arcs are taken by chords
+/// whose distance from them counts; where that is too much, by finer ones.
+fn deepest(finish: &Finish, placed: &Placed<'_>, allowed: f64) -> (Worst, bool) {
+    let ball = finish.cutter.corner() + finish.leave;
+    let mut worst = Worst::NONE;
+    for sagitta in [COARSEST, 0.1 * COARSEST, 0.01 * COARSEST, FINEST] {
+        worst = Worst { line: placed.line, block: placed.block, ..Worst::NONE };
+        let chords = within(placed, sagitta);
+        for (from, to) in &chords.ways {
+            let (from, to) = (raised(finish, *from), raised(finish, *to));
+            if clear(finish, from, to, ball + chords.off) {
+                continue;
+            }
+            let question =
+                Question { enough: ball + chords.off, little: f64::INFINITY, accuracy: 0.5 * ACCURACY };
+            let found = extremes(&finish.tree, &finish.cutter, from, to, &question, None);
+            let value = ball + chords.off - found.least.distance;
+            worst.take(Worst { value, line: placed.line, block: placed.block, at: found.least.at });
+        }
+        if chords.off == 0.0 || worst.value <= ACCURACY.min(allowed + ACCURACY) {
+            break;
+        }
+    }
+    (worst, worst.value <= allowed + ACCURACY)
+}
+
 /// Whether boxes tell that a move stays clear.
 fn clear(finish: &Finish, from: Point3, to: Point3, ball: f64) -> bool {
     let (low, high) = finish.tree.bounds();
@@ -148,26 +201,42 @@ fn clear(finish: &Finish, from: Point3, to: Point3, ball: f64) -> bool {
     (0..3).any(|i| from[i].min(to[i]) > high[i] + ball + CLEAR || from[i].max(to[i]) < low[i] - ball - CLEAR)
 }
 
-/// A move as straight ways of the tip; arcs and curves, of which passes have none, by chords of a hundredth of a mm.
+/// A move as straight ways of the tip, for pictures.
 pub(super) fn chords(placed: &Placed<'_>) -> Vec<(Point3, Point3)> {
+    within(placed, SIMULATED).ways
+}
+
+/// A move as straight ways of the tip.
+struct Chords {
+    ways: Vec<(Point3, Point3)>,
+    /// No point of the move is farther from them, mm.
+    off: f64,
+}
+
+/// A move by chords that leave it by no more than `sagitta` mm, or by as many as are bearable.
+fn within(placed: &Placed<'_>, sagitta: f64) -> Chords {
+    const MOST: f64 = 1e6;
     let (start, end) = (placed.cut.start(), placed.cut.end());
     if matches!(placed.cut.path, TracePath::Line { .. }) {
-        return vec![(start, end)];
+        return Chords { ways: vec![(start, end)], off: 0.0 };
     }
-    let count = (placed.cut.length() / 0.01).ceil().clamp(2.0, 1e6) as u32;
     let primitives = crate::verify::path::Primitive::of(&placed.cut.path);
     let (a, b) = placed.cut.z;
     let share = 1.0 / crate::math::count(primitives.len().max(1));
     let mut points = vec![start];
+    let mut off: f64 = 0.0;
     for (k, primitive) in primitives.iter().enumerate() {
-        let own = (f64::from(count) * share).ceil().max(1.0) as u32;
+        // A curve leaves its chord over a parameter step h by no more than h²/8 of its second derivative; heights are linear.
+        let bend = primitive.bounds()[1];
+        let own = (bend / (8.0 * sagitta)).sqrt().ceil().clamp(1.0, MOST) as u32;
+        off = off.max(bend / (8.0 * f64::from(own) * f64::from(own)));
         for i in 1..=own {
             let f = f64::from(i) / f64::from(own);
             let p = primitive.at(f).p;
             points.push(Point3::new(p.x, p.y, a + (b - a) * share * (crate::math::count(k) + f)));
         }
     }
-    points.windows(2).map(|w| (w[0], w[1])).collect()
+    Chords { ways: points.windows(2).map(|w| (w[0], w[1])).collect(), off }
 }
 
 fn gouge(operation: &Operation, placed: &Placed<'_>, into: &Worst, allowed: f64) -> Finding {
