@@ -124,10 +124,7 @@ fn cutters_with_a_flat_or_a_cone_keep_their_band() {
                 "{cutter} {along}: {proof:?}"
             );
             assert!(proof.out.value > 0.005 && proof.cusp.is_none(), "{cutter} {along}: {proof:?}");
-            assert!(
-                proof.left.value <= proof.left_bound,
-                "{cutter} {along}: {proof:?}"
-            );
+            assert!(proof.left.value <= proof.left_bound, "{cutter} {along}: {proof:?}");
             for n in [3, 20] {
                 assert!(bent(&build, n, -400).contains(&"E0820"), "{cutter} {along} {n}");
                 assert!(bent(&build, n, 600).contains(&"E0821"), "{cutter} {along} {n}");
