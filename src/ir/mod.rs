@@ -459,8 +459,10 @@ pub enum Along {
     X,
     /// y, in planes of constant x.
     Y,
-    /// u, at a constant height of cusps.
+    /// u or v, bent so that the height of cusps is the same nearly everywhere.
     IsoCusp,
+    /// u or v, bent so that neighbours have the same distance everywhere.
+    Const,
 }
 
 /// What decides about the distance of passes.

@@ -302,6 +302,7 @@ fn surface_text(surface: &Surface) -> String {
         Along::X => "x",
         Along::Y => "y",
         Along::IsoCusp => "isocusp",
+        Along::Const => "const",
     };
     let spacing = match surface.spacing {
         Spacing::Cusp(h) => format!("cusp {}", num(h)),

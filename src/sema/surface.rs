@@ -322,6 +322,7 @@ fn along(m: &Matched) -> Along {
         Some("X") => Along::X,
         Some("Y") => Along::Y,
         Some("ISOCSP") => Along::IsoCusp,
+        Some("CONST") => Along::Const,
         _ => Along::U,
     }
 }

@@ -107,7 +107,8 @@ pub(super) const ALONG: Choices = choices(
         word("V", "passes along v, at constant u"),
         word("X", "passes in planes of constant y"),
         word("Y", "passes in planes of constant x"),
-        word("ISOCSP", "passes at a constant height of cusps, along u"),
+        word("ISOCSP", "bent passes that use the height of cusps up nearly everywhere"),
+        word("CONST", "bent passes at the same distance on the surface everywhere"),
     ],
     "U",
 );

@@ -32,6 +32,8 @@ pub(super) type Chain = Vec<[i64; 3]>;
 const MARGINS: [f64; 6] = [0.02, 0.15, 0.3, 0.5, 0.9, 1.5];
 /// Slack of the check, mm; far below what verification allows.
 const SLACK: f64 = 4e-7;
+/// Vertices on the grid may be so far to the side of a track, in steps.
+const GRID: f64 = 2.0;
 /// Cuts of one failing link at most.
 const DEEPEST: u32 = 12;
 
@@ -242,13 +244,13 @@ impl Task<'_> {
         })
     }
 
-    /// Room at a parameter, and never less than the grid takes.
+    /// Room at a parameter, and never less than what vertices on the grid take.
     fn room_at(&self, t: f64) -> f64 {
         let last = self.room.len() - 1;
         let x = t.clamp(0.0, 1.0) * crate::math::count(last);
         let i = (x.floor() as usize).min(last);
         let (a, b) = (self.room[i], self.room[(i + 1).min(last)]);
-        a.min(b).max(self.lattice.step)
+        a.min(b).max(GRID * self.lattice.step)
     }
 
     /// Whether the straight way between two vertices stays in the band.

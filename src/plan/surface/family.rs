@@ -2,10 +2,11 @@
 
 use std::sync::Arc;
 
+use super::march;
 use super::ridge::Target;
 use super::spread::{self, COLUMNS, Line};
-use crate::geom::Point2;
 use crate::geom::surface::{Contact, Cutter, Guide, SurfaceTree, Track, drop_ball};
+use crate::geom::{Point2, Point3, Vec3};
 use crate::ir::{Along, Spacing, Surface};
 use crate::math::count;
 
@@ -27,6 +28,8 @@ pub(super) struct Family {
     pub ball: f64,
     /// What it leaves, mm.
     pub leave: f64,
+    /// Width of the band the path may lie in, mm.
+    band: f64,
     kind: Kind,
 }
 
@@ -34,8 +37,25 @@ pub(super) struct Family {
 enum Kind {
     /// Parameter lines along this axis.
     Parameter(usize),
-    /// Plan lines along this axis (0: x), and the plan outline of the offset surface.
-    Line(usize, Vec<Point2>),
+    /// Plan lines along this axis (0: x), over the edges of the surface.
+    Line(Rim),
+}
+
+/// The edges of the surface as plan passes along an axis (0: x) see them.
+#[derive(Debug)]
+pub(super) struct Rim {
+    pub axis: usize,
+    pub places: Vec<RimPlace>,
+    /// The centres in plan: the outline of the offset surface.
+    outline: Vec<Point2>,
+}
+
+/// A place on an edge, with the centre of the ball that touches there.
+#[derive(Debug)]
+pub(super) struct RimPlace {
+    pub point: Point3,
+    pub normal: Vec3,
+    pub centre: Point3,
 }
 
 /// How far a plan pass goes on beyond the outline of the offset surface, mm.
@@ -43,19 +63,35 @@ const BEYOND: f64 = 0.005;
 /// Plan passes begin so far inside the outline, as a share of the ball's radius: what that leaves is far below a
 /// micron.
 const INSET: f64 = 0.005;
+/// Passes that end and begin farther apart than so many radii are joined above the surface.
+const LINK: f64 = 6.0;
 /// Outline points on an edge of a patch.
 const EDGE: u32 = 400;
 
 impl Family {
+    /// The passes of an operation; those that bend as if they ran along u.
     pub(super) fn new(surface: &Surface, tree: Arc<SurfaceTree>, radius: f64) -> Family {
         let ball = radius + surface.leave;
         let kind = match surface.along {
-            Along::U | Along::IsoCusp => Kind::Parameter(0),
+            Along::U | Along::IsoCusp | Along::Const => Kind::Parameter(0),
             Along::V => Kind::Parameter(1),
-            Along::X => Kind::Line(0, outline(&tree, ball)),
-            Along::Y => Kind::Line(1, outline(&tree, ball)),
+            Along::X => Kind::Line(Rim::new(0, &tree, ball)),
+            Along::Y => Kind::Line(Rim::new(1, &tree, ball)),
         };
-        Family { tree, ball, leave: surface.leave, kind }
+        Family { tree, ball, leave: surface.leave, band: surface.band.into + surface.band.out, kind }
+    }
+
+    /// The same surface with passes along u (0) or v (1).
+    fn along_axis(&self, axis: usize) -> Family {
+        Family { tree: Arc::clone(&self.tree), kind: Kind::Parameter(axis), ..*self }
+    }
+
+    /// How far the path may be beside its pass, mm, where the surface has this normal: off the surface by the whole band, a
+    /// plane pass stays in its plane and goes aside on the surface.
+    pub(super) fn aside(&self, normal: Vec3) -> f64 {
+        let Kind::Line(rim) = &self.kind else { return 0.0 };
+        let out = normal[1 - rim.axis].abs();
+        self.band * out / (1.0 - out * out).max(0.01).sqrt()
     }
 
     /// Whether passes lie in planes: their chords do so, too.
@@ -63,11 +99,19 @@ impl Family {
         matches!(self.kind, Kind::Line(..))
     }
 
+    /// The edges, for plan passes.
+    pub(super) fn rim(&self) -> Option<&Rim> {
+        match &self.kind {
+            Kind::Line(rim) => Some(rim),
+            Kind::Parameter(_) => None,
+        }
+    }
+
     /// Range of *across*.
     pub(super) fn across(&self) -> (f64, f64) {
         match &self.kind {
             Kind::Parameter(axis) => (0.0, count(self.tree.net().size()[1 - axis])),
-            Kind::Line(axis, outline) => {
+            Kind::Line(Rim { axis, outline, .. }) => {
                 // At its very border the outline has no length.
                 let (a, b) = range(outline.iter().map(|p| p[1 - axis]));
                 let inset = (INSET * self.ball).min(0.1 * (b - a));
@@ -105,7 +149,7 @@ impl Family {
     pub(super) fn along(&self, across: f64) -> Option<(f64, f64)> {
         match &self.kind {
             Kind::Parameter(axis) => Some((0.0, count(self.tree.net().size()[*axis]))),
-            Kind::Line(axis, outline) => {
+            Kind::Line(Rim { axis, outline, .. }) => {
                 let (a, b) = crossings(outline, *axis, across)?;
                 Some((a - BEYOND, b + BEYOND))
             }
@@ -116,7 +160,7 @@ impl Family {
     pub(super) fn contact(&self, across: f64, along: f64, hint: Option<&Contact>) -> Option<Contact> {
         match &self.kind {
             Kind::Parameter(axis) => self.parameter_track(*axis, across, (along, along)).at(0.0, hint),
-            Kind::Line(0, _) => drop_ball(&self.tree, self.ball, along, across, hint),
+            Kind::Line(Rim { axis: 0, .. }) => drop_ball(&self.tree, self.ball, along, across, hint),
             Kind::Line(..) => drop_ball(&self.tree, self.ball, across, along, hint),
         }
     }
@@ -142,7 +186,7 @@ impl Family {
         }
         Some(match &self.kind {
             Kind::Parameter(axis) => self.parameter_track(*axis, across, (a, b)),
-            Kind::Line(0, _) => self.line(Point2::new(a, across), Point2::new(b, across))?,
+            Kind::Line(Rim { axis: 0, .. }) => self.line(Point2::new(a, across), Point2::new(b, across))?,
             Kind::Line(..) => self.line(Point2::new(across, a), Point2::new(across, b))?,
         })
     }
@@ -178,9 +222,12 @@ impl Family {
                 Guide::Parameter { axis, value, range: (_, end) },
                 Guide::Parameter { value: next, range: (start, _), .. },
             ) if end == start => Some(self.parameter_track(1 - axis, *end, (*value, *next))),
-            (Guide::Curve(from), Guide::Curve(to)) => {
-                let ([along, value], [start, next]) = (*from.last()?, *to.first()?);
-                (along == start).then(|| self.parameter_track(1, along, (value, next)))
+            (Guide::Curve(before), Guide::Curve(after)) => {
+                // The domain is convex: a straight way in the parameters stays on the surface.
+                let way = [*before.last()?, *after.first()?];
+                let ends = [from.at(1.0, None)?.centre, to.at(0.0, None)?.centre];
+                ((ends[1] - ends[0]).norm() <= LINK * self.ball)
+                    .then(|| self.track(Guide::Curve(Arc::new(way.to_vec()))))
             }
             (Guide::Line { to: end, .. }, Guide::Line { from: start, .. }) => {
                 Some(self.track(Guide::Line { from: *end, to: *start }))
@@ -189,33 +236,35 @@ impl Family {
         }
     }
 
-    /// The passes as tracks, each with its room.
-    fn tracks(&self, surface: &Surface, target: Target) -> Result<Vec<(Track, Vec<f64>)>, String> {
-        let curved = surface.along == Along::IsoCusp;
-        let spread = spread::spread(self, target, curved)?;
-        if self.is_plane() {
-            let places: Vec<f64> = spread.lines.iter().map(|line| line[0]).collect();
-            return Ok((0..places.len())
-                .filter_map(|k| Some((self.pass(&places, k)?, Vec::new())))
-                .collect());
+    /// The passes as tracks, each with its room, in chains: one pass of a chain lies beside the next.
+    fn chains(&self, surface: &Surface, target: Target) -> Result<Vec<Vec<(Track, Vec<f64>)>>, String> {
+        if matches!(surface.along, Along::IsoCusp | Along::Const) {
+            let both = [self.along_axis(0), self.along_axis(1)];
+            let (family, spread) = march::shortest(both, target, surface.along == Along::Const)?;
+            let rooms = spread.rooms(target);
+            let leg = |s: &Stretch| {
+                let room = rooms[s.line][s.from..=s.to].to_vec();
+                (family.bent(&spread.lines[s.line], s), room)
+            };
+            return Ok(stretches(&spread.lines).iter().map(|chain| chain.iter().map(leg).collect()).collect());
         }
-        let rooms = spread.rooms(target);
-        let track = |line: &Line| if curved { self.bent(line) } else { self.straight(line[0]) };
-        Ok(spread.lines.iter().map(track).zip(rooms).collect())
+        let spread = spread::spread(self, target)?;
+        let places: Vec<f64> = spread.lines.iter().map(|line| line[0]).collect();
+        if self.is_plane() {
+            let passes = (0..places.len()).filter_map(|k| Some((self.pass(&places, k)?, Vec::new())));
+            return Ok(vec![passes.collect()]);
+        }
+        let tracks = (0..places.len()).filter_map(|k| self.pass(&places, k));
+        Ok(vec![tracks.zip(spread.rooms(target)).collect()])
     }
 
-    /// A pass along a parameter line.
-    fn straight(&self, across: f64) -> Track {
-        let Kind::Parameter(axis) = self.kind else { return self.bent(&vec![across; COLUMNS]) };
-        self.parameter_track(axis, across, self.along(across).unwrap_or((0.0, 1.0)))
-    }
-
-    /// A pass along a curve in the parameters.
-    fn bent(&self, line: &Line) -> Track {
-        let (from, to) = self.along(line[0]).unwrap_or((0.0, 1.0));
+    /// A pass along a stretch of a curve in the parameters.
+    fn bent(&self, line: &Line, stretch: &Stretch) -> Track {
+        let (from, to) = self.along(0.0).unwrap_or((0.0, 1.0));
         let at = |k: usize| from + (to - from) * count(k) / count(COLUMNS - 1);
-        let places = line.iter().enumerate().map(|(k, across)| [at(k), *across]).collect();
-        self.track(Guide::Curve(Arc::new(places)))
+        let across = usize::from(matches!(self.kind, Kind::Parameter(0)));
+        let place = |k: usize| if across == 1 { [at(k), line[k]] } else { [line[k], at(k)] };
+        self.track(Guide::Curve(Arc::new((stretch.from..=stretch.to).map(place).collect())))
     }
 
     /// All passes and the ways between them, in the order they are cut.
@@ -224,20 +273,25 @@ impl Family {
             Spacing::Cusp(h) => Target::Cusp(h),
             Spacing::Step(s) => Target::Step(s),
         };
-        let mut tracks = self.tracks(surface, target)?;
-        if tracks.is_empty() {
-            return Err("no pass meets the surface".into());
-        }
-        if surface.zigzag {
-            for (track, room) in tracks.iter_mut().skip(1).step_by(2) {
-                *track = track.reversed();
-                room.reverse();
+        let mut legs: Vec<Leg> = Vec::new();
+        for chain in self.chains(surface, target)? {
+            self.chain(chain, surface.zigzag, &mut legs);
+            if let Some(end) = legs.last_mut() {
+                end.last = true;
             }
         }
-        let mut legs: Vec<Leg> = Vec::with_capacity(2 * tracks.len());
-        for (track, room) in tracks {
+        if legs.is_empty() { Err("no pass meets the surface".into()) } else { Ok(legs) }
+    }
+
+    /// The passes of one chain, and the ways between them.
+    fn chain(&self, chain: Vec<(Track, Vec<f64>)>, zigzag: bool, legs: &mut Vec<Leg>) {
+        for (k, (mut track, mut room)) in chain.into_iter().enumerate() {
+            if zigzag && k % 2 == 1 {
+                track = track.reversed();
+                room.reverse();
+            }
             let link = match legs.last() {
-                Some(before) if surface.zigzag => self.link(&before.track, &track),
+                Some(before) if zigzag && k > 0 => self.link(&before.track, &track),
                 _ => None,
             };
             if let Some(before) = legs.last_mut() {
@@ -246,34 +300,76 @@ impl Family {
             legs.extend(link.map(|track| Leg { track, room: Vec::new(), last: false }));
             legs.push(Leg { track, room, last: false });
         }
-        if let Some(end) = legs.last_mut() {
-            end.last = true;
-        }
-        Ok(legs)
     }
+}
+
+/// A stretch of a pass, by its first and last columns.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Stretch {
+    line: usize,
+    from: usize,
+    to: usize,
+}
+
+/// The stretches where passes run, in chains of such that lie beside one another.
+fn stretches(lines: &[Line]) -> Vec<Vec<Stretch>> {
+    let mut open: Vec<Vec<Stretch>> = lines.iter().enumerate().map(|(line, l)| runs(line, l)).collect();
+    let mut chains = Vec::new();
+    for first in 0..open.len() {
+        while let Some(start) = open[first].pop() {
+            let mut chain = vec![start];
+            let mut last = start;
+            while let Some(beside) = open.get_mut(last.line + 1) {
+                let shared = |s: &Stretch| (s.to.min(last.to) + 1).saturating_sub(s.from.max(last.from));
+                let best = (0..beside.len()).filter(|i| shared(&beside[*i]) > 0).max_by_key(|i| shared(&beside[*i]));
+                let Some(i) = best else { break };
+                last = beside.remove(i);
+                chain.push(last);
+            }
+            chains.push(chain);
+        }
+    }
+    chains
+}
+
+/// The stretches of one line, of two columns at least, the last first.
+fn runs(line: usize, across: &Line) -> Vec<Stretch> {
+    let mut out: Vec<Stretch> = Vec::new();
+    for k in (0..across.len()).filter(|k| !across[*k].is_nan()) {
+        match out.last_mut().filter(|s| s.to + 1 == k) {
+            Some(stretch) => stretch.to = k,
+            None => out.push(Stretch { line, from: k, to: k }),
+        }
+    }
+    out.retain(|s| s.to > s.from);
+    out.reverse();
+    out
 }
 
 fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
     values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)))
 }
 
-/// Plan points of the ball's centre along the four edges of the net, in order around it.
-fn outline(tree: &SurfaceTree, ball: f64) -> Vec<Point2> {
-    let net = tree.net();
-    let [rows, columns] = net.size().map(count);
-    let corners = [[0.0, 0.0], [rows, 0.0], [rows, columns], [0.0, columns]];
-    let mut points = Vec::new();
-    for (k, from) in corners.iter().enumerate() {
-        let to = corners[(k + 1) % 4];
-        for i in 0..EDGE {
-            let t = f64::from(i) / f64::from(EDGE);
-            let jet = net.jet(from[0] + (to[0] - from[0]) * t, from[1] + (to[1] - from[1]) * t);
-            if let Some(n) = jet.normal() {
-                points.push(Point2::new(jet.p.x + ball * n.x, jet.p.y + ball * n.y));
+impl Rim {
+    /// Places along the four edges of the net, in order around it.
+    fn new(axis: usize, tree: &SurfaceTree, ball: f64) -> Rim {
+        let net = tree.net();
+        let [rows, columns] = net.size().map(count);
+        let corners = [[0.0, 0.0], [rows, 0.0], [rows, columns], [0.0, columns]];
+        let mut places = Vec::new();
+        for (k, from) in corners.iter().enumerate() {
+            let to = corners[(k + 1) % 4];
+            for i in 0..EDGE {
+                let t = f64::from(i) / f64::from(EDGE);
+                let jet = net.jet(from[0] + (to[0] - from[0]) * t, from[1] + (to[1] - from[1]) * t);
+                if let Some(normal) = jet.normal() {
+                    places.push(RimPlace { point: jet.p, normal, centre: jet.p + normal * ball });
+                }
             }
         }
+        let outline = places.iter().map(|p| Point2::new(p.centre.x, p.centre.y)).collect();
+        Rim { axis, places, outline }
     }
-    points
 }
 
 /// First and last crossing of a closed outline with a line along `axis`.

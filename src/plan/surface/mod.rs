@@ -1,11 +1,12 @@
 //! Finishing of surfaces: passes of a ball-end cutter over a net.
 //!
-//! [`family`] says what the passes of an operation are, [`spread`] how close they lie, [`entry`] how the cutter comes onto
-//! the surface. Passes stay exact tracks: `lower` fits them.
+//! [`family`] says what the passes of an operation are, [`spread`] how close straight ones lie, [`march`] where those run that
+//! bend, [`entry`] how the cutter comes onto the surface. Passes stay exact tracks: `lower` fits them.
 
 mod entry;
 mod family;
 mod lanes;
+mod march;
 mod material;
 mod ridge;
 mod spread;

@@ -4,6 +4,10 @@
 //! pass, comes by. That is the smallest over the pass of the height at which the normal enters the ball there; the pass
 //! is known at its columns, and cubic between them.
 
+use std::ops::Range;
+
+use rayon::prelude::*;
+
 use super::family::Family;
 use super::spread::{COLUMNS, Line};
 use crate::geom::surface::Contact;
@@ -26,6 +30,23 @@ impl Target {
             Target::Step(_) => "this step".into(),
         }
     }
+
+    /// About how many passes a family takes: those of a plane as wide.
+    pub(super) fn passes(self, family: &Family) -> f64 {
+        let step = match self {
+            Target::Cusp(h) => 2.0 * (h * (2.0 * family.ball - h)).max(0.0).sqrt(),
+            Target::Step(s) => s,
+        };
+        family.width() / step
+    }
+
+    /// The same, for passes that are `factor` times as far apart.
+    pub(super) fn coarser(self, factor: f64) -> Target {
+        match self {
+            Target::Cusp(h) => Target::Cusp(h * factor * factor),
+            Target::Step(s) => Target::Step(s * factor),
+        }
+    }
 }
 
 /// Part of the height of cusps that passes are spread for: the rest is for places between columns, and for paths
@@ -35,6 +56,9 @@ const AIM: f64 = 0.985;
 /// this times closer than on a plane.
 const CLOSEST: f64 = 4.0;
 
+/// Columns that one task measures.
+const CHUNK: usize = 32;
+
 /// The contacts of a pass at its columns.
 #[derive(Debug)]
 pub(super) struct Row {
@@ -43,18 +67,61 @@ pub(super) struct Row {
 
 impl Row {
     pub(super) fn new(family: &Family, line: &Line) -> Row {
-        let range = line.first().and_then(|across| family.along(*across));
-        let mut hint: Option<Contact> = None;
-        let contact = |(k, across): (usize, &f64)| {
-            let found = family.contact(*across, place(range?, k), hint.as_ref());
-            hint = found.or(hint);
-            found
+        // A pass in a plane is one line, and has its own range.
+        let range = family.along(line.iter().copied().find(|a| !a.is_nan()).unwrap_or(f64::NAN));
+        let part = |from: usize| {
+            let mut hint: Option<Contact> = None;
+            let contact = |k: usize| {
+                let across = line.get(k).copied().filter(|a| !a.is_nan())?;
+                let found = family.contact(across, place(range?, k), hint.as_ref());
+                hint = found.or(hint);
+                found
+            };
+            (from..(from + CHUNK).min(COLUMNS)).map(contact).collect::<Vec<Option<Contact>>>()
         };
-        Row { contacts: line.iter().enumerate().map(contact).collect() }
+        Row { contacts: (0..COLUMNS).into_par_iter().step_by(CHUNK).flat_map_iter(part).collect() }
     }
 
-    fn centre(&self, k: usize) -> Option<Point3> {
+    pub(super) fn centre(&self, k: usize) -> Option<Point3> {
         self.contacts.get(k)?.as_ref().map(|c| c.centre)
+    }
+
+    /// Distance of a point from the points of contact, mm; column `k` is near it.
+    fn beside(&self, p: Point3, k: usize) -> f64 {
+        let foot = |k: usize| self.contacts.get(k).copied().flatten().map(|c| c.foot.point);
+        let Some(k) = self.descend(k, &|k| foot(k).map_or(f64::INFINITY, |q| (q - p).norm_squared())) else {
+            return f64::INFINITY;
+        };
+        let Some(q) = foot(k) else { return f64::INFINITY };
+        let chord = |end: Option<Point3>| {
+            let way = end.unwrap_or(q) - q;
+            let t = ((p - q).dot(&way) / way.norm_squared().max(1e-300)).clamp(0.0, 1.0);
+            (p - q - way * t).norm()
+        };
+        chord(k.checked_sub(1).and_then(foot)).min(chord(foot(k + 1)))
+    }
+
+    /// The column, downhill from `k`, where a cost is least; where it is infinite at `k`, downhill from the best.
+    fn descend(&self, mut k: usize, at: &dyn Fn(usize) -> f64) -> Option<usize> {
+        if at(k) == f64::INFINITY {
+            k = (0..self.contacts.len()).min_by(|a, b| at(*a).total_cmp(&at(*b)))?;
+        }
+        let mut best = at(k);
+        loop {
+            let (left, right) = (k.checked_sub(1).map_or(f64::INFINITY, at), at(k + 1));
+            if left < best && left <= right {
+                (k, best) = (k - 1, left);
+            } else if right < best {
+                (k, best) = (k + 1, right);
+            } else {
+                return Some(k);
+            }
+        }
+    }
+
+    /// How far the path may be beside the pass at a column, mm.
+    fn aside(&self, family: &Family, k: usize) -> f64 {
+        self.contacts.get(k).copied().flatten().map_or(0.0, |c| family.aside(c.normal))
     }
 
     /// The centre between columns.
@@ -73,21 +140,8 @@ impl Row {
     /// The least of a function of the centre over the pass, looked for from column `k`.
     fn least(&self, k: usize, cost: &dyn Fn(Point3) -> f64) -> f64 {
         let at = |k: usize| self.centre(k).map_or(f64::INFINITY, cost);
-        let mut k = k;
-        if at(k) == f64::INFINITY {
-            k = (0..COLUMNS).min_by(|a, b| at(*a).total_cmp(&at(*b))).unwrap_or(k);
-        }
-        let mut best = at(k);
-        loop {
-            let (left, right) = (k.checked_sub(1).map_or(f64::INFINITY, at), at(k + 1));
-            if left < best && left <= right {
-                (k, best) = (k - 1, left);
-            } else if right < best {
-                (k, best) = (k + 1, right);
-            } else {
-                break;
-            }
-        }
+        let Some(k) = self.descend(k, &at) else { return f64::INFINITY };
+        let best = at(k);
         let between = |s: f64| self.between(s).map_or(f64::INFINITY, cost);
         best.min(golden(&between, (count(k) - 1.0).max(0.0), (count(k) + 1.0).min(count(COLUMNS - 1))))
     }
@@ -125,10 +179,25 @@ pub(super) fn gap(
     rows: (&Row, &Row),
     lines: (&Line, &Line),
 ) -> Vec<(f64, f64)> {
+    let chunk = |from: usize| chunk(family, target, rows, lines, from..(from + CHUNK).min(COLUMNS));
+    (0..COLUMNS).into_par_iter().step_by(CHUNK).flat_map_iter(chunk).collect()
+}
+
+/// The same for a few columns.
+fn chunk(
+    family: &Family,
+    target: Target,
+    rows: (&Row, &Row),
+    lines: (&Line, &Line),
+    columns: Range<usize>,
+) -> Vec<(f64, f64)> {
     let mut hint: Option<Contact> = None;
-    (0..COLUMNS)
+    columns
         .map(|k| {
             let apart = rows.0.centre(k).zip(rows.1.centre(k)).map_or(0.0, |(a, b)| (b - a).norm());
+            if apart <= 0.0 {
+                return (0.0, 0.0);
+            }
             let used = match target {
                 Target::Step(step) => feet(rows, k).min(CLOSEST * apart) / step,
                 Target::Cusp(h) => {
@@ -137,24 +206,74 @@ pub(super) fn gap(
                     between.ridge(&mut hint).map_or(0.0, |root| (root / (AIM * h).sqrt()).min(CLOSEST * flat))
                 }
             };
-            (used, apart)
+            let aside = rows.0.aside(family, k).max(rows.1.aside(family, k));
+            (wider(used, aside, apart), apart)
         })
         .collect()
+}
+
+/// A share, when a distance may grow by `aside`.
+fn wider(used: f64, aside: f64, apart: f64) -> f64 {
+    if apart > 0.0 { used * (1.0 + (aside / apart).min(1.0)) } else { used }
 }
 
 /// Distance on the surface of one pass's place from the other, mm.
 fn feet((a, b): (&Row, &Row), k: usize) -> f64 {
     let Some(Some(own)) = a.contacts.get(k) else { return 0.0 };
-    let foot = |k: usize| b.contacts.get(k).copied().flatten().map(|c| c.foot.point);
-    let mut least = f64::INFINITY;
-    for i in 0..COLUMNS {
-        let Some(p) = foot(i) else { continue };
-        let next = foot(i + 1).unwrap_or(p);
-        let way = next - p;
-        let t = ((own.foot.point - p).dot(&way) / way.norm_squared().max(1e-300)).clamp(0.0, 1.0);
-        least = least.min((own.foot.point - p - way * t).norm());
-    }
+    let least = b.beside(own.foot.point, k);
     if least.is_finite() { least } else { 0.0 }
+}
+
+/// The share of half a distance that lies between the border of the surface, at *across* `edge`, and the pass next to
+/// it; and twice the distance of the centres, at every column.
+pub(super) fn border(family: &Family, target: Target, row: &Row, line: &Line, edge: f64) -> Vec<(f64, f64)> {
+    let half = Half { family, target, row };
+    let Some(rim) = family.rim() else {
+        let mut hint: Option<Contact> = None;
+        let at = |(k, across): (usize, &f64)| {
+            let along = family.along(*across).map(|range| place(range, k)).filter(|_| !across.is_nan())?;
+            let contact = family.contact(edge, along, hint.as_ref())?;
+            hint = Some(contact);
+            let apart = (contact.centre - row.centre(k)?).norm();
+            Some((half.used((contact.foot.point, contact.normal), k, apart), 2.0 * apart))
+        };
+        return line.iter().enumerate().map(at).map(|found| found.unwrap_or((0.0, 0.0))).collect();
+    };
+    // Points of the edge that lie outside of the pass count to it as a whole.
+    let across = line.first().copied().unwrap_or(edge);
+    let (axis, range) = (rim.axis, family.along(across).unwrap_or((0.0, 1.0)));
+    let worst = rim.places.iter().filter(|p| (p.centre[1 - axis] - across) * (edge - across) > 0.0).map(|p| {
+        let share = (p.centre[axis] - range.0) / (range.1 - range.0);
+        // Floats saturate.
+        let k = ((share * count(COLUMNS - 1)).round().max(0.0) as usize).min(COLUMNS - 1);
+        half.used((p.point, p.normal), k, (p.centre[1 - axis] - across).abs())
+    });
+    vec![(worst.fold(0.0, f64::max), 2.0 * (across - edge).abs()); line.len()]
+}
+
+/// One pass, and what it leaves beside it.
+struct Half<'a> {
+    family: &'a Family,
+    target: Target,
+    row: &'a Row,
+}
+
+impl Half<'_> {
+    /// The share of half a distance at a point with its normal, whose centre is so far from the pass's own; column `k` is
+    /// near it.
+    fn used(&self, (q, n): (Point3, Vec3), k: usize, apart: f64) -> f64 {
+        let aside = self.row.aside(self.family, k).max(self.family.aside(n));
+        let used = match self.target {
+            Target::Step(step) => 2.0 * self.row.beside(q, k).min(CLOSEST * apart) / step,
+            Target::Cusp(h) => {
+                let ball = self.family.ball;
+                let flat = apart / (h * (2.0 * ball - h)).max(0.0).sqrt();
+                let root = self.row.least(k, &|centre| enters(q - centre, n, ball)).max(0.0).sqrt();
+                (root / (AIM * h).sqrt()).min(CLOSEST * flat)
+            }
+        };
+        wider(used, aside, apart)
+    }
 }
 
 /// A column between two passes.
@@ -168,16 +287,27 @@ struct Between<'a> {
 
 impl Between<'_> {
     /// Square root of the ridge's height, mm; `None` where the ball touches nothing. Roots grow evenly from each pass,
-    /// so that the ridge, where they meet, is found in two steps.
+    /// so that the place of the ridge, where they meet, is found in a few steps.
     fn ridge(&self, hint: &mut Option<Contact>) -> Option<f64> {
         let (a, b) = self.roots(0.5, hint)?;
         if !(a.is_finite() && b.is_finite()) {
             return Some(f64::INFINITY);
         }
-        let share = if a + b > 0.0 { b / (a + b) } else { 0.5 };
-        let Some((c, d)) = self.roots(share.clamp(0.1, 0.9), hint) else { return Some(a.min(b)) };
-        let (before, after) = (a - b, c - d);
-        let rest = after / (before - after);
+        const ROUNDS: u32 = 4;
+        const EVEN: f64 = 0.02;
+        let (mut before, mut now, mut share) = ((a, b), (a, b), 0.5);
+        for _ in 0..ROUNDS {
+            let (rise, fall) = (now.0 / share, now.1 / (1.0 - share));
+            share = if rise + fall > 0.0 { fall / (rise + fall) } else { 0.5 };
+            share = share.clamp(0.05, 0.95);
+            let Some(found) = self.roots(share, hint) else { break };
+            (before, now) = (now, found);
+            if (now.0 - now.1).abs() <= EVEN * (now.0 + now.1) {
+                break;
+            }
+        }
+        let ((a, b), (c, d)) = (before, now);
+        let rest = (c - d) / (a - b - c + d);
         let root = if rest.abs() < 1.0 { c + (c - a) * rest } else { 0.5 * (c + d) };
         Some(root.max(c.min(d)))
     }

@@ -18,72 +18,103 @@ const FIRST: usize = 24;
 /// … and no farther apart than this share of the ball's radius.
 const APART: f64 = 0.4;
 /// More passes than this are a mistake in the tolerance.
-const MOST: usize = 50_000;
+pub(super) const MOST: usize = 50_000;
 /// Rounds of measuring and moving.
 const ROUNDS: u32 = 8;
 /// Distances may be used up to this share: the target itself is a little below what was asked for.
-const FULL: f64 = 1.004;
+pub(super) const FULL: f64 = 1.004;
 /// Distances of passes that are measured at once: their contacts are kept in memory.
 const BLOCK: usize = 512;
-/// Curved passes are smooth over so many columns.
+/// What curved passes use is smooth over so many columns.
 const SMOOTH: usize = 4;
 
-/// *Across* of a pass at every column.
+/// *Across* of a pass at every column; no number where there is no pass.
 pub(super) type Line = Vec<f64>;
 
 /// Passes and what their distances use of what is allowed.
 #[derive(Debug)]
 pub(super) struct Spread {
     pub lines: Vec<Line>,
-    /// For each gap between neighbours and each column: the share used, and the distance of the centres, mm.
+    /// For each gap, from the surface's border before the first pass to that behind the last, and each column: the share
+    /// used, and the distance of the centres, mm.
     pub gaps: Vec<Vec<(f64, f64)>>,
 }
 
-/// The fewest passes whose distances are nowhere used up more than the target allows. `curved`: passes may bend, so that
-/// each column uses its distances up by itself; all of them run from end to end, and the column that takes the most
-/// passes decides about their number.
-pub(super) fn spread(family: &Family, target: Target, curved: bool) -> Result<Spread, String> {
-    let (first, last) = family.across();
+/// Where the first and the last pass lie.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Ends {
+    /// On the border.
+    On,
+    /// Inside of it by as much as half a ridge: beyond the border nothing stays.
+    Inside,
+}
+
+impl Ends {
+    /// Places of passes as shares of the whole need, where the distances are as many as `whole`.
+    fn marks(self, whole: usize) -> Vec<f64> {
+        match self {
+            Ends::On => (0..=whole).map(|j| count(j) / count(whole)).collect(),
+            Ends::Inside => (0..whole).map(|j| (count(j) + 0.5) / count(whole)).collect(),
+        }
+    }
+
+    /// How many whole distances so many passes make.
+    fn whole(self, passes: usize) -> usize {
+        match self {
+            Ends::On => passes.saturating_sub(1),
+            Ends::Inside => passes,
+        }
+    }
+
+    /// What a border takes of a whole distance where it uses its own up.
+    fn half(self) -> f64 {
+        match self {
+            Ends::On => 0.0,
+            Ends::Inside => 0.5,
+        }
+    }
+}
+
+/// The fewest straight passes from end to end whose distances are nowhere used up more than the target allows.
+pub(super) fn spread(family: &Family, target: Target) -> Result<Spread, String> {
+    let edges = family.across();
+    let ends = if matches!(target, Target::Cusp(_)) { Ends::Inside } else { Ends::On };
     let start = ((family.width() / (APART * family.ball)).ceil() as usize).clamp(FIRST, MOST);
-    let straight = |k: usize| vec![first + (last - first) * count(k) / count(start); COLUMNS];
-    let mut lines: Vec<Line> = (0..=start).map(straight).collect();
-    let mut found = measure(family, target, &lines);
+    let straight = |mark: f64| vec![edges.0 + (edges.1 - edges.0) * mark; COLUMNS];
+    let mut lines: Vec<Line> = ends.marks(start).into_iter().map(straight).collect();
+    let mut found = measure(family, target, &lines, (edges, ends));
     for round in 0..ROUNDS {
         let mut needs: Vec<Line> = found.iter().map(|gap| gap.iter().map(|g| g.0).collect()).collect();
         let worst = needs.iter().flatten().copied().fold(0.0, f64::max);
-        level(&mut needs, curved);
-        let columns = transposed(&needs);
+        level(&mut needs);
+        let columns = transposed(&needs, ends);
         let most = columns.iter().map(|c| c.iter().sum::<f64>()).fold(0.0, f64::max);
         if most.is_nan() || most > count(MOST) {
             return Err(format!("{} asks for more than {MOST} passes", target.name()));
         }
         // The last rounds may only add passes: they end in any case.
-        let fewest = if round + 3 < ROUNDS { 1 } else { lines.len() - 1 + usize::from(worst > FULL) };
-        let passes = ((most - 1e-3).ceil() as usize).max(fewest);
-        if round > 0 && worst <= FULL && passes + 1 >= lines.len() {
+        let now = ends.whole(lines.len());
+        let fewest = if round + 3 < ROUNDS { 1 } else { now + usize::from(worst > FULL) };
+        let whole = ((most - 1e-3).ceil() as usize).max(fewest);
+        if round > 0 && worst <= FULL && whole >= now {
             break;
         }
-        lines = moved(&lines, &columns, passes);
-        found = measure(family, target, &lines);
+        lines = moved(&lines, &columns, edges, &ends.marks(whole));
+        found = measure(family, target, &lines, (edges, ends));
     }
     Ok(Spread { lines, gaps: found })
 }
 
-/// What passes use at each column. Passes that do not bend use at every column what they use at the worst; bent ones stay
-/// smooth, and nowhere use less than they did.
-fn level(needs: &mut [Line], curved: bool) {
+/// Passes that do not bend use at every column what they use at the worst.
+fn level(needs: &mut [Line]) {
     for gap in needs {
-        if curved {
-            *gap = smooth(gap);
-        } else {
-            let worst = gap.iter().copied().fold(0.0, f64::max);
-            gap.fill(worst);
-        }
+        let worst = gap.iter().copied().fold(0.0, f64::max);
+        gap.fill(worst);
     }
 }
 
 /// The mean, over a few columns, of the largest value of a few columns: never below the value itself.
-fn smooth(values: &[f64]) -> Line {
+pub(super) fn smooth(values: &[f64]) -> Line {
     let around = |k: usize| k.saturating_sub(SMOOTH)..(k + SMOOTH + 1).min(values.len());
     let upper: Line =
         (0..values.len()).map(|k| values[around(k)].iter().copied().fold(0.0, f64::max)).collect();
@@ -94,48 +125,57 @@ fn smooth(values: &[f64]) -> Line {
     (0..values.len()).map(mean).collect()
 }
 
-fn transposed(needs: &[Line]) -> Vec<Line> {
-    (0..COLUMNS).map(|k| needs.iter().map(|gap| gap[k]).collect()).collect()
+/// The needs of every column; those at the borders in parts of a whole distance.
+fn transposed(needs: &[Line], ends: Ends) -> Vec<Line> {
+    let share = |j: usize| if j == 0 || j + 1 == needs.len() { ends.half() } else { 1.0 };
+    (0..COLUMNS).map(|k| needs.iter().enumerate().map(|(j, gap)| gap[k] * share(j)).collect()).collect()
 }
 
-/// As many passes, so that each of their distances takes the same part of every column's needs.
-fn moved(lines: &[Line], columns: &[Line], passes: usize) -> Vec<Line> {
+/// Passes at these shares of every column's needs.
+fn moved(lines: &[Line], columns: &[Line], edges: (f64, f64), marks: &[f64]) -> Vec<Line> {
     let placed: Vec<Line> = columns
         .iter()
         .enumerate()
         .map(|(k, needs)| {
-            let at: Line = lines.iter().map(|line| line[k]).collect();
-            shared_out(&at, needs, passes)
+            let inner = lines.iter().map(|line| line[k]);
+            let at: Line = core::iter::once(edges.0).chain(inner).chain([edges.1]).collect();
+            shared_out(&at, needs, marks)
         })
         .collect();
-    (0..=passes).map(|j| placed.iter().map(|column| column[j]).collect()).collect()
+    (0..marks.len()).map(|j| placed.iter().map(|column| column[j]).collect()).collect()
 }
 
-/// Places that divide the whole need equally; `needs` lie between the places `at`.
-fn shared_out(at: &[f64], needs: &[f64], passes: usize) -> Line {
+/// Places at shares of the whole need, in rising order; `needs` lie between the places `at`.
+fn shared_out(at: &[f64], needs: &[f64], marks: &[f64]) -> Line {
     let whole: f64 = needs.iter().sum();
     let (first, last) = (at[0], at[at.len() - 1]);
     if whole.is_nan() || whole <= 0.0 {
-        return (0..=passes).map(|j| first + (last - first) * count(j) / count(passes)).collect();
+        return marks.iter().map(|mark| first + (last - first) * mark).collect();
     }
     let (mut i, mut before) = (0, 0.0);
-    let mut out = vec![first];
-    for j in 1..passes {
-        let wanted = whole * count(j) / count(passes);
+    let place = |mark: &f64| {
+        if *mark <= 0.0 || *mark >= 1.0 {
+            return if *mark <= 0.0 { first } else { last };
+        }
+        let wanted = whole * mark;
         while i + 1 < needs.len() && before + needs[i] < wanted {
             before += needs[i];
             i += 1;
         }
         let share = if needs[i] > 0.0 { ((wanted - before) / needs[i]).clamp(0.0, 1.0) } else { 0.0 };
-        out.push(at[i] + (at[i + 1] - at[i]) * share);
-    }
-    out.push(last);
-    out
+        at[i] + (at[i + 1] - at[i]) * share
+    };
+    marks.iter().map(place).collect()
 }
 
-/// The share of what is allowed, and the distance, between neighbours at every column.
-fn measure(family: &Family, target: Target, lines: &[Line]) -> Vec<Vec<(f64, f64)>> {
-    let mut out = Vec::with_capacity(lines.len());
+/// The share of what is allowed, and the distance, between neighbours and to the borders, at every column.
+pub(super) fn measure(family: &Family, target: Target, lines: &[Line], (edges, ends): ((f64, f64), Ends)) -> Vec<Vec<(f64, f64)>> {
+    let mut out = Vec::with_capacity(lines.len() + 1);
+    let border = |line: Option<&Line>, edge: f64| match line.filter(|_| ends == Ends::Inside) {
+        Some(line) => super::ridge::border(family, target, &Row::new(family, line), line, edge),
+        None => vec![(0.0, f64::INFINITY); COLUMNS],
+    };
+    out.push(border(lines.first(), edges.0));
     let mut from = 0;
     while from + 1 < lines.len() {
         let to = (from + BLOCK).min(lines.len() - 1);
@@ -144,18 +184,41 @@ fn measure(family: &Family, target: Target, lines: &[Line]) -> Vec<Vec<(f64, f64
         let block: Vec<Vec<(f64, f64)>> = pairs
             .par_iter()
             .map(|&j| {
-                let (a, b) = (&rows[j - from], &rows[j + 1 - from]);
-                super::ridge::gap(family, target, (a, b), (&lines[j], &lines[j + 1]))
+                let pair = Pair { rows: (&rows[j - from], &rows[j + 1 - from]), lines: (&lines[j], &lines[j + 1]) };
+                pair.shares(family, target, edges)
             })
             .collect();
         out.extend(block);
         from = to;
     }
+    out.push(border(lines.last(), edges.1));
     out
 }
 
+/// Two neighbouring passes.
+struct Pair<'a> {
+    rows: (&'a Row, &'a Row),
+    lines: (&'a Line, &'a Line),
+}
+
+impl Pair<'_> {
+    /// What lies between them; where one of them has ended, what lies between the other and the border.
+    fn shares(&self, family: &Family, target: Target, edges: (f64, f64)) -> Vec<(f64, f64)> {
+        let mut out = super::ridge::gap(family, target, self.rows, self.lines);
+        let ((a, b), (p, q)) = (self.rows, self.lines);
+        for (row, line, other, edge) in [(a, p, q, edges.1), (b, q, p, edges.0)] {
+            let alone = |k: usize| other[k].is_nan() && !line[k].is_nan();
+            if (0..COLUMNS).any(alone) {
+                let border = super::ridge::border(family, target, row, line, edge);
+                (0..COLUMNS).filter(|k| alone(*k)).for_each(|k| out[k] = border[k]);
+            }
+        }
+        out
+    }
+}
+
 /// Passes may be to the side of their track by this share of the distance of passes, at least and at most.
-const ASIDE: (f64, f64) = (0.0015, 0.05);
+const ASIDE: (f64, f64) = (0.003, 0.05);
 
 impl Spread {
     /// How far the path of each pass may be to the side of its track, mm, at every column: half of what the distance
@@ -163,14 +226,16 @@ impl Spread {
     pub(super) fn rooms(&self, target: Target) -> Vec<Vec<f64>> {
         let spare = |(used, apart): (f64, f64)| {
             let share = match target {
-                Target::Cusp(_) => 0.5 * (1.0 / used.max(1e-3) - 1.0),
+                Target::Cusp(_) => 0.5 * (1.0 - used),
                 Target::Step(_) => ASIDE.1,
             };
-            apart * share.clamp(ASIDE.0, ASIDE.1)
+            // The distance that would use everything up; a pass on the border is free to leave it.
+            let whole = if used > 1e-3 { apart / used } else { f64::INFINITY };
+            whole * share.clamp(ASIDE.0, ASIDE.1)
         };
         let own = |j: usize, k: usize| {
-            let sides = [j.checked_sub(1), Some(j)].into_iter().flatten();
-            sides.filter_map(|i| self.gaps.get(i)?.get(k)).map(|g| spare(*g)).fold(f64::INFINITY, f64::min)
+            let sides = [j, j + 1].into_iter().filter_map(|i| self.gaps.get(i)?.get(k));
+            sides.map(|g| spare(*g)).fold(f64::INFINITY, f64::min)
         };
         (0..self.lines.len()).map(|j| (0..COLUMNS).map(|k| own(j, k)).collect()).collect()
     }
@@ -182,7 +247,7 @@ mod tests {
 
     #[test]
     fn needs_are_shared_out_equally() {
-        let places = shared_out(&[0.0, 1.0, 2.0, 4.0], &[1.0, 3.0, 2.0], 4);
+        let places = shared_out(&[0.0, 1.0, 2.0, 4.0], &[1.0, 3.0, 2.0], &Ends::On.marks(4));
         assert_eq!(places.len(), 5);
         for (place, wanted) in places.iter().zip([0.0, 7.0 / 6.0, 5.0 / 3.0, 2.5, 4.0]) {
             assert!((place - wanted).abs() < 1e-12, "{places:?}");

@@ -1,0 +1,266 @@
+//! Passes that follow one another, each as far from the one before as the target allows at every place.
+//!
+//! Marching begins on a border or in the middle. A pass runs on only where the surface between the one before it and the
+//! border is not yet done: it ends where it reaches the border, and those that follow are shorter. Which parameter the
+//! passes run along, and where they begin, is tried out with passes that lie farther apart; the shortest way wins.
+
+use rayon::prelude::*;
+
+use super::family::Family;
+use super::ridge::{Row, Target, border, gap};
+use super::spread::{COLUMNS, Ends, Line, MOST, Spread, measure, smooth};
+
+/// Rounds of measuring and moving one pass.
+const ROUNDS: u32 = 30;
+/// Rounds that move each column by itself; the others move the pass as a whole.
+const FREE: u32 = 10;
+/// A pass is near enough when it uses so much wherever it may.
+const NEAR: f64 = 0.995;
+/// Part of the height of cusps that bent passes are spread for: the rest is for blocks, which are straight.
+const BENT: f64 = 0.985;
+/// … and what may be used beyond that.
+const SPENT: f64 = 0.002;
+/// Ways are tried out with about so many passes.
+const TRIAL: f64 = 48.0;
+
+/// Where marching begins.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Start {
+    First,
+    Last,
+    Middle,
+}
+
+/// The shortest way over the surface of passes that lie as far apart as the target allows; `even`: everywhere at the
+/// same distance. The families are those along u and along v.
+pub(super) fn shortest(
+    families: [Family; 2],
+    target: Target,
+    even: bool,
+) -> Result<(Family, Spread), String> {
+    let [along_u, along_v] = families;
+    let ways: Vec<(bool, Start)> = [false, true]
+        .into_iter()
+        .flat_map(|v| [Start::First, Start::Last, Start::Middle].map(|s| (v, s)))
+        .collect();
+    let tried: Vec<Result<f64, String>> = ways
+        .par_iter()
+        .map(|(v, start)| {
+            let family = if *v { &along_v } else { &along_u };
+            let factor = (target.passes(family) / TRIAL).max(1.0);
+            Ok(length(family, &spread(family, target.coarser(factor), even, *start)?))
+        })
+        .collect();
+    let mut best: Option<(f64, (bool, Start))> = None;
+    for (way, length) in ways.iter().zip(tried) {
+        let length = length?;
+        // Ways of the same length: the first of them.
+        if best.is_none_or(|b| length < b.0 * (1.0 - 1e-6)) {
+            best = Some((length, *way));
+        }
+    }
+    let (v, start) = best.map_or((false, Start::First), |b| b.1);
+    let family = if v { along_v } else { along_u };
+    let spread = spread(&family, target, even, start)?;
+    Ok((family, spread))
+}
+
+fn spread(family: &Family, target: Target, even: bool, start: Start) -> Result<Spread, String> {
+    match target {
+        Target::Cusp(h) if even => constant(family, h * BENT, start),
+        Target::Cusp(h) => marched(family, Target::Cusp(h * BENT), start),
+        Target::Step(_) => marched(family, target, start),
+    }
+}
+
+/// The largest constant distance whose ridges are nowhere higher than asked for.
+fn constant(family: &Family, h: f64, start: Start) -> Result<Spread, String> {
+    const TRIES: u32 = 8;
+    const SPARE: f64 = 0.98;
+    let mut step = 2.0 * (h * (2.0 * family.ball - h)).max(0.0).sqrt();
+    let mut found = None;
+    for _ in 0..TRIES {
+        let passes = marched(family, Target::Step(step), start)?;
+        let gaps = measure(family, Target::Cusp(h), &passes.lines, (family.across(), Ends::Inside));
+        let worst = gaps.iter().flatten().map(|g| g.0).fold(0.0, f64::max);
+        if worst <= 1.0 + SPENT {
+            found = Some(Spread { lines: passes.lines, gaps });
+        }
+        if worst.is_nan() || worst <= 0.0 || (SPARE..=1.0 + SPENT).contains(&worst) {
+            break;
+        }
+        step /= worst;
+    }
+    found.ok_or_else(|| "no constant distance of passes keeps the height of cusps".into())
+}
+
+/// Length of the passes, mm.
+fn length(family: &Family, spread: &Spread) -> f64 {
+    let along = |line: &Line| -> f64 {
+        let row = Row::new(family, line);
+        let chord = |k: usize| Some((row.centre(k + 1)? - row.centre(k)?).norm());
+        (0..COLUMNS - 1).filter_map(chord).sum()
+    };
+    spread.lines.iter().map(along).sum()
+}
+
+fn marched(family: &Family, target: Target, start: Start) -> Result<Spread, String> {
+    let edges = family.across();
+    let march = March { family, target };
+    let lines = match start {
+        Start::First => march.all(march.begun(edges.0, edges.1), edges.1)?,
+        Start::Last => {
+            let mut lines = march.all(march.begun(edges.1, edges.0), edges.0)?;
+            lines.reverse();
+            lines
+        }
+        Start::Middle => {
+            let (middle, step) = (vec![0.5 * (edges.0 + edges.1); COLUMNS], vec![march.guess(); COLUMNS]);
+            let front = || Front { row: Row::new(family, &middle), line: middle.clone(), step: step.clone() };
+            let mut lines = march.all(front(), edges.0)?;
+            lines.reverse();
+            lines.extend(march.all(front(), edges.1)?.into_iter().skip(1));
+            lines
+        }
+    };
+    let gaps = measure(family, target, &lines, (edges, Ends::Inside));
+    Ok(Spread { lines, gaps })
+}
+
+struct March<'a> {
+    family: &'a Family,
+    target: Target,
+}
+
+/// The last pass so far.
+struct Front {
+    line: Line,
+    row: Row,
+    /// How far it is from the one before it, in *across*.
+    step: Line,
+}
+
+impl March<'_> {
+    /// A first distance of passes, in *across*.
+    fn guess(&self) -> f64 {
+        let (a, b) = self.family.across();
+        (b - a) / self.target.passes(self.family).max(2.0)
+    }
+
+    /// The first pass beside the border at `from`.
+    fn begun(&self, from: f64, to: f64) -> Front {
+        let open = [true; COLUMNS];
+        let line = vec![from; COLUMNS];
+        let step = vec![0.5 * self.guess(); COLUMNS];
+        let mut front =
+            self.moved(&open, &line, step, to, |line, row| border(self.family, self.target, row, line, from));
+        front.step.iter_mut().for_each(|s| *s *= 2.0);
+        front
+    }
+
+    /// All passes from the first to the border at `edge`.
+    fn all(&self, first: Front, edge: f64) -> Result<Vec<Line>, String> {
+        let mut lines = Vec::new();
+        let mut front = first;
+        while let Some(next) = self.next(&front, edge) {
+            lines.push(front.line);
+            front = next;
+            if lines.len() > MOST {
+                return Err(format!("{} asks for more than {MOST} passes", self.target.name()));
+            }
+        }
+        lines.push(front.line);
+        Ok(lines)
+    }
+
+    /// The pass after this one; `None` where nothing stays up to the border.
+    fn next(&self, front: &Front, edge: f64) -> Option<Front> {
+        let rest = border(self.family, self.target, &front.row, &front.line, edge);
+        let left = |k: usize| rest.get(k).is_some_and(|r| r.0 > 1.0);
+        let open: [bool; COLUMNS] = core::array::from_fn(|k| {
+            // One column more on either side: the pass covers what is left to its very end.
+            let near = k.checked_sub(1).is_some_and(left) || left(k) || left(k + 1);
+            near && !front.line[k].is_nan()
+        });
+        open.contains(&true).then(|| {
+            self.moved(&open, &front.line, front.step.clone(), edge, |line, row| {
+                gap(self.family, self.target, (&front.row, row), (&front.line, line))
+            })
+        })
+    }
+
+    /// A pass, where it is open, so far from a line that what it `uses` is used up, or at the border.
+    fn moved(
+        &self,
+        open: &[bool; COLUMNS],
+        from: &Line,
+        mut step: Line,
+        edge: f64,
+        uses: impl Fn(&Line, &Row) -> Vec<(f64, f64)>,
+    ) -> Front {
+        let mut round = 0;
+        loop {
+            let line = placed(open, from, &step, edge);
+            let row = Row::new(self.family, &line);
+            let used: Line = uses(&line, &row).into_iter().map(|u| u.0).collect();
+            let worst = used.iter().copied().fold(0.0, f64::max);
+            let idle =
+                (0..COLUMNS).filter(|k| open[*k] && line[*k] != edge).map(|k| used[k] < NEAR * SMOOTHED);
+            let idle = idle.filter(|i| *i).count();
+            round += 1;
+            if worst <= 1.0 + SPENT && round > 1 && (idle == 0 || round > 4)
+                || round >= ROUNDS
+                || worst.is_nan()
+            {
+                return Front { line, row, step };
+            }
+            let needs = if round < FREE { smooth(&used) } else { vec![worst.max(1.0); COLUMNS] };
+            for k in (0..COLUMNS).filter(|k| open[*k]) {
+                // What lies on the border cannot go on, and comes back from there.
+                let on_border = line[k] == edge;
+                let now = if on_border && needs[k] > 1.0 {
+                    (line[k] - from[k]).abs().min(step[k])
+                } else {
+                    step[k]
+                };
+                step[k] = if on_border && needs[k] < 1.0 { now } else { now / needs[k].clamp(0.5, 2.0) };
+            }
+        }
+    }
+}
+
+/// A line so many steps from another, where it is open; made smooth, and no farther than the border.
+fn placed(open: &[bool; COLUMNS], from: &Line, step: &Line, edge: f64) -> Line {
+    let mut line: Line = (0..COLUMNS)
+        .map(|k| match (open[k], from[k] < edge) {
+            (false, _) => f64::NAN,
+            (true, true) => from[k] + step[k],
+            (true, false) => from[k] - step[k],
+        })
+        .collect();
+    for _ in 0..FAIRINGS {
+        faired(&mut line);
+    }
+    for k in (0..COLUMNS).filter(|k| open[*k]) {
+        line[k] = if from[k] < edge { line[k].clamp(from[k], edge) } else { line[k].clamp(edge, from[k]) };
+    }
+    line
+}
+
+/// Each inner value half way to the mean of its neighbours.
+fn faired(line: &mut Line) {
+    let mut before = f64::NAN;
+    for k in 0..line.len() {
+        let (own, after) = (line[k], line.get(k + 1).copied().unwrap_or(f64::NAN));
+        let mean = 0.25 * before + 0.5 * own + 0.25 * after;
+        if !mean.is_nan() {
+            line[k] = mean;
+        }
+        before = own;
+    }
+}
+
+/// How often a pass is faired: ripples shorter than about fifteen columns, which would grow from pass to pass, go.
+const FAIRINGS: u32 = 24;
+/// Smoothing takes so much off where needs differ.
+const SMOOTHED: f64 = 0.98;
