@@ -7,6 +7,7 @@ use super::ridge::Target;
 use super::spread::{self, COLUMNS, Line};
 use crate::geom::surface::{Contact, Cutter, Guide, SurfaceTree, Track, drop_ball};
 use crate::geom::{Point2, Point3, Vec3};
+use crate::geom::{Point2, Point3, Vec3};
 use crate::ir::{Along, Spacing, Surface};
 use crate::math::count;
 
@@ -241,12 +242,15 @@ impl Family {
         if matches!(surface.along, Along::IsoCusp | Along::Const) {
             let both = [self.along_axis(0), self.along_axis(1)];
             let (family, spread) = march::shortest(both, target, surface.along == Along::Const)?;
-            let rooms = spread.rooms(target);
+            let rooms = spread.rooms(target, true);
             let leg = |s: &Stretch| {
                 let room = rooms[s.line][s.from..=s.to].to_vec();
                 (family.bent(&spread.lines[s.line], s), room)
             };
-            return Ok(stretches(&spread.lines).iter().map(|chain| chain.iter().map(leg).collect()).collect());
+            return Ok(stretches(&spread.lines)
+                .iter()
+                .map(|chain| chain.iter().map(leg).collect())
+                .collect());
         }
         let spread = spread::spread(self, target)?;
         let places: Vec<f64> = spread.lines.iter().map(|line| line[0]).collect();
@@ -255,7 +259,7 @@ impl Family {
             return Ok(vec![passes.collect()]);
         }
         let tracks = (0..places.len()).filter_map(|k| self.pass(&places, k));
-        Ok(vec![tracks.zip(spread.rooms(target)).collect()])
+        Ok(vec![tracks.zip(spread.rooms(target, false)).collect()])
     }
 
     /// A pass along a stretch of a curve in the parameters.
@@ -321,7 +325,8 @@ fn stretches(lines: &[Line]) -> Vec<Vec<Stretch>> {
             let mut last = start;
             while let Some(beside) = open.get_mut(last.line + 1) {
                 let shared = |s: &Stretch| (s.to.min(last.to) + 1).saturating_sub(s.from.max(last.from));
-                let best = (0..beside.len()).filter(|i| shared(&beside[*i]) > 0).max_by_key(|i| shared(&beside[*i]));
+                let best =
+                    (0..beside.len()).filter(|i| shared(&beside[*i]) > 0).max_by_key(|i| shared(&beside[*i]));
                 let Some(i) = best else { break };
                 last = beside.remove(i);
                 chain.push(last);

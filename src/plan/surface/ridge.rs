@@ -51,7 +51,9 @@ impl Target {
 
 /// Part of the height of cusps that passes are spread for: the rest is for places between columns, and for paths
 /// beside their tracks.
-const AIM: f64 = 0.985;
+const AIM: f64 = 0.993;
+/// The same beside a border: what goes aside there counts twice.
+const AIM_BORDER: f64 = 0.975;
 /// Where the ball cannot reach, its point of contact leaps and what stays is no cusp: passes need not be closer there than
 /// this times closer than on a plane.
 const CLOSEST: f64 = 4.0;
@@ -242,12 +244,13 @@ pub(super) fn border(family: &Family, target: Target, row: &Row, line: &Line, ed
     // Points of the edge that lie outside of the pass count to it as a whole.
     let across = line.first().copied().unwrap_or(edge);
     let (axis, range) = (rim.axis, family.along(across).unwrap_or((0.0, 1.0)));
-    let worst = rim.places.iter().filter(|p| (p.centre[1 - axis] - across) * (edge - across) > 0.0).map(|p| {
-        let share = (p.centre[axis] - range.0) / (range.1 - range.0);
-        // Floats saturate.
-        let k = ((share * count(COLUMNS - 1)).round().max(0.0) as usize).min(COLUMNS - 1);
-        half.used((p.point, p.normal), k, (p.centre[1 - axis] - across).abs())
-    });
+    let worst =
+        rim.places.iter().filter(|p| (p.centre[1 - axis] - across) * (edge - across) > 0.0).map(|p| {
+            let share = (p.centre[axis] - range.0) / (range.1 - range.0);
+            // Floats saturate.
+            let k = ((share * count(COLUMNS - 1)).round().max(0.0) as usize).min(COLUMNS - 1);
+            half.used((p.point, p.normal), k, (p.centre[1 - axis] - across).abs())
+        });
     vec![(worst.fold(0.0, f64::max), 2.0 * (across - edge).abs()); line.len()]
 }
 
@@ -269,7 +272,7 @@ impl Half<'_> {
                 let ball = self.family.ball;
                 let flat = apart / (h * (2.0 * ball - h)).max(0.0).sqrt();
                 let root = self.row.least(k, &|centre| enters(q - centre, n, ball)).max(0.0).sqrt();
-                (root / (AIM * h).sqrt()).min(CLOSEST * flat)
+                (root / (AIM_BORDER * h).sqrt()).min(CLOSEST * flat)
             }
         };
         wider(used, aside, apart)

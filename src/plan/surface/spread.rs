@@ -22,7 +22,7 @@ pub(super) const MOST: usize = 50_000;
 /// Rounds of measuring and moving.
 const ROUNDS: u32 = 8;
 /// Distances may be used up to this share: the target itself is a little below what was asked for.
-pub(super) const FULL: f64 = 1.004;
+const FULL: f64 = 1.002;
 /// Distances of passes that are measured at once: their contacts are kept in memory.
 const BLOCK: usize = 512;
 /// What curved passes use is smooth over so many columns.
@@ -169,7 +169,12 @@ fn shared_out(at: &[f64], needs: &[f64], marks: &[f64]) -> Line {
 }
 
 /// The share of what is allowed, and the distance, between neighbours and to the borders, at every column.
-pub(super) fn measure(family: &Family, target: Target, lines: &[Line], (edges, ends): ((f64, f64), Ends)) -> Vec<Vec<(f64, f64)>> {
+pub(super) fn measure(
+    family: &Family,
+    target: Target,
+    lines: &[Line],
+    (edges, ends): ((f64, f64), Ends),
+) -> Vec<Vec<(f64, f64)>> {
     let mut out = Vec::with_capacity(lines.len() + 1);
     let border = |line: Option<&Line>, edge: f64| match line.filter(|_| ends == Ends::Inside) {
         Some(line) => super::ridge::border(family, target, &Row::new(family, line), line, edge),
@@ -184,7 +189,8 @@ pub(super) fn measure(family: &Family, target: Target, lines: &[Line], (edges, e
         let block: Vec<Vec<(f64, f64)>> = pairs
             .par_iter()
             .map(|&j| {
-                let pair = Pair { rows: (&rows[j - from], &rows[j + 1 - from]), lines: (&lines[j], &lines[j + 1]) };
+                let pair =
+                    Pair { rows: (&rows[j - from], &rows[j + 1 - from]), lines: (&lines[j], &lines[j + 1]) };
                 pair.shares(family, target, edges)
             })
             .collect();
@@ -217,21 +223,25 @@ impl Pair<'_> {
     }
 }
 
-/// Passes may be to the side of their track by this share of the distance of passes, at least and at most.
-const ASIDE: (f64, f64) = (0.003, 0.05);
+/// Paths may be to the side of straight and of bent tracks by this share of the distance of passes at least …
+const STRAIGHT: f64 = 0.0035;
+const BENT: f64 = 0.006;
+/// … and by this at most.
+const ASIDE: f64 = 0.05;
 
 impl Spread {
     /// How far the path of each pass may be to the side of its track, mm, at every column: half of what the distance
     /// from both neighbours leaves.
-    pub(super) fn rooms(&self, target: Target) -> Vec<Vec<f64>> {
+    pub(super) fn rooms(&self, target: Target, bent: bool) -> Vec<Vec<f64>> {
+        let least = if bent { BENT } else { STRAIGHT };
         let spare = |(used, apart): (f64, f64)| {
             let share = match target {
                 Target::Cusp(_) => 0.5 * (1.0 - used),
-                Target::Step(_) => ASIDE.1,
+                Target::Step(_) => ASIDE,
             };
             // The distance that would use everything up; a pass on the border is free to leave it.
             let whole = if used > 1e-3 { apart / used } else { f64::INFINITY };
-            whole * share.clamp(ASIDE.0, ASIDE.1)
+            whole * share.clamp(least, ASIDE)
         };
         let own = |j: usize, k: usize| {
             let sides = [j, j + 1].into_iter().filter_map(|i| self.gaps.get(i)?.get(k));
