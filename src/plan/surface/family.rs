@@ -87,6 +87,11 @@ impl Family {
         Family { tree: Arc::clone(&self.tree), kind: Kind::Parameter(axis), ..*self }
     }
 
+    /// Radius of the ball itself, mm.
+    pub(super) fn radius(&self) -> f64 {
+        self.ball - self.leave
+    }
+
     /// How far the path may be beside its pass, mm, where the surface has this normal: off the surface by the whole band, a
     /// plane pass stays in its plane and goes aside on the surface.
     pub(super) fn aside(&self, normal: Vec3) -> f64 {

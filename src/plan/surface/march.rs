@@ -77,7 +77,7 @@ fn spread(family: &Family, target: Target, even: bool, start: Start) -> Result<S
 fn constant(family: &Family, h: f64, start: Start) -> Result<Spread, String> {
     const TRIES: u32 = 8;
     const SPARE: f64 = 0.98;
-    let mut step = 2.0 * (h * (2.0 * family.ball - h)).max(0.0).sqrt();
+    let mut step = 2.0 * (h * (2.0 * family.radius() - h)).max(0.0).sqrt();
     let mut found = None;
     for _ in 0..TRIES {
         let passes = marched(family, Target::Step(step), start)?;

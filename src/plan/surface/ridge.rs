@@ -34,7 +34,7 @@ impl Target {
     /// About how many passes a family takes: those of a plane as wide.
     pub(super) fn passes(self, family: &Family) -> f64 {
         let step = match self {
-            Target::Cusp(h) => 2.0 * (h * (2.0 * family.ball - h)).max(0.0).sqrt(),
+            Target::Cusp(h) => 2.0 * (h * (2.0 * family.radius() - h)).max(0.0).sqrt(),
             Target::Step(s) => s,
         };
         family.width() / step
@@ -269,9 +269,10 @@ impl Half<'_> {
         let used = match self.target {
             Target::Step(step) => 2.0 * self.row.beside(q, k).min(CLOSEST * apart) / step,
             Target::Cusp(h) => {
-                let ball = self.family.ball;
-                let flat = apart / (h * (2.0 * ball - h)).max(0.0).sqrt();
-                let root = self.row.least(k, &|centre| enters(q - centre, n, ball)).max(0.0).sqrt();
+                let (radius, leave) = (self.family.radius(), self.family.leave);
+                let flat = apart / (h * (2.0 * radius - h)).max(0.0).sqrt();
+                let height = |centre| enters(q - centre, n, radius) - leave;
+                let root = self.row.least(k, &height).max(0.0).sqrt();
                 (root / (AIM_BORDER * h).sqrt()).min(CLOSEST * flat)
             }
         };

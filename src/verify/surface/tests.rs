@@ -34,12 +34,60 @@ fn proof(build: &Build) -> SurfaceProof {
 
 #[test]
 fn every_kind_of_pass_keeps_its_tolerances() {
-    for along in ["U", "V", "X", "Y", "ISOCSP"] {
+    for along in ["U", "V", "X", "Y", "ISOCSP", "CONST"] {
         let proof = proof(&build(&format!("ZIGZAG, {along}, CUSP, 0.02")));
         assert!(proof.into.value <= 1e-6 && proof.out.value <= 0.01 + 1e-6, "{along}: {proof:?}");
         let cusp = proof.cusp.expect("cusps").value;
         assert!(cusp > 0.01 && cusp <= 0.0201, "{along}: {cusp}");
         assert!(proof.left.value <= proof.left_bound && proof.unreachable.is_none(), "{along}: {proof:?}");
+    }
+}
+
+/// Number and length, mm, of the lines that follow lines.
+fn lines(build: &Build) -> (usize, f64) {
+    let target = build.outputs[0].target.as_ref().expect("a target");
+    let (mut before, mut count, mut length) = (None, 0, 0.0);
+    for block in &target.blocks {
+        let BlockKind::Motion(Motion::Line { to, .. }) = &block.kind else {
+            before = None;
+            continue;
+        };
+        let now = (to.x, to.y, to.z);
+        if let Some((x, y, z)) = before {
+            let square = |a: i64, b: i64| ((a - b) as f64).powi(2);
+            length += (square(now.0, x) + square(now.1, y) + square(now.2, z)).sqrt() * 1e-3;
+            count += 1;
+        }
+        before = Some(now);
+    }
+    (count, length)
+}
+
+#[test]
+fn passes_that_bend_are_shorter_than_straight_ones() {
+    let [u, v, iso, even] =
+        ["U", "V", "ISOCSP", "CONST"].map(|along| lines(&build(&format!("ZIGZAG, {along}, CUSP, 0.02"))));
+    assert!(iso.1 < 0.985 * u.1.min(v.1), "{iso:?} {u:?} {v:?}");
+    assert!(iso.1 < even.1, "{iso:?} {even:?}");
+    assert!(iso.0 < 2 * u.0.max(v.0), "{iso:?} {u:?} {v:?}");
+}
+
+#[test]
+fn the_first_and_the_last_pass_lie_half_a_distance_inside() {
+    let plane = "N1 = NET/ 2, 2, (0, 0, 0), (0, 19.5, 0), (30, 0, 0), (30, 19.5, 0)\n";
+    let passes = |along: &str| {
+        let text = program(&format!("ONEWAY, {along}, CUSP, 0.02"));
+        let (net, tool) = (text.find("N1 =").expect("a net"), text.find("T1 =").expect("a cutter"));
+        let mut files = MemoryFiles::default();
+        files.0.insert("part.apt".to_owned(), format!("{}{plane}{}", &text[..net], &text[tool..]));
+        let build = driver::build("part.apt", &files, &Options::default());
+        assert!(!build.has_errors(), "{along}: {:#?}", build.diagnostics);
+        let records = &build.cl.as_ref().expect("CL").records;
+        records.iter().filter(|r| matches!(r.kind, RecordKind::Pass(_))).count()
+    };
+    // 19.5 mm at no more than 2 sqrt(0.02 (6 - 0.02)) mm take 29 passes; with one on either border it were 30.
+    for along in ["U", "X", "CONST"] {
+        assert_eq!(passes(along), 29, "{along}");
     }
 }
 
