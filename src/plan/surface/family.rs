@@ -7,7 +7,6 @@ use super::ridge::Target;
 use super::spread::{self, COLUMNS, Line};
 use crate::geom::surface::{Contact, Cutter, Guide, SurfaceTree, Track, drop_ball};
 use crate::geom::{Point2, Point3, Vec3};
-use crate::geom::{Point2, Point3, Vec3};
 use crate::ir::{Along, Spacing, Surface};
 use crate::math::count;
 

@@ -55,7 +55,7 @@ pub(super) fn legs(
         Along::X => lanes.lines(0)?,
         Along::Y => lanes.lines(1)?,
         Along::V => lanes.parameters(1)?,
-        Along::U | Along::IsoCusp => lanes.parameters(0)?,
+        Along::U | Along::IsoCusp | Along::Const => lanes.parameters(0)?,
     };
     if tracks.is_empty() {
         return Err("no pass meets the surface".into());
