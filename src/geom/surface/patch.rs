@@ -1,5 +1,7 @@
 //! One Bezier patch of any degree, polynomial or rational.
 
+use nalgebra::SVector;
+
 use crate::geom::{Point3, Vec3};
 
 /// Largest degree of a patch in either direction.
@@ -152,13 +154,11 @@ impl Patch {
     /// r and its derivatives to second order, eq. (8) ff.
     #[must_use]
     pub fn jet(&self, u: f64, v: f64) -> SurfaceJet {
-        let [m, n] = self.degree;
-        if [m, n] == [3, 3] && !self.rational {
-            return self.bicubic_jet(u, v);
+        if self.degree == [3, 3] && !self.rational {
+            let [p, u, v, uu, uv, vv] = bicubic::<3>(&self.poles, u, v);
+            return SurfaceJet { p: Point3::from(p), u, v, uu, uv, vv };
         }
-        let (b0, b1, b2) = bernstein_jet(m, u);
-        let (c0, c1, c2) = bernstein_jet(n, v);
-        let [h, hu, hv, huu, huv, hvv] = self.sums([&b0, &b1, &b2], [&c0, &c1, &c2]);
+        let [h, hu, hv, huu, huv, hvv] = self.sums(u, v);
         if self.rational {
             return quotient(h, hu, hv, huu, huv, hvv);
         }
@@ -171,28 +171,6 @@ impl Patch {
             vv: hvv.xyz(),
         }
     }
-    /// [`Patch::jet`] of a polynomial bicubic patch, the most frequent one by far.
-    fn bicubic_jet(&self, u: f64, v: f64) -> SurfaceJet {
-        let (b, c) = (cubic(u), cubic(v));
-        let mut out = [Vec3::zeros(); 6];
-        for (i, row) in self.poles.chunks_exact(4).enumerate() {
-            let mut r = [Vec3::zeros(); 3];
-            for (j, pole) in row.iter().enumerate() {
-                let pole = Vec3::new(pole.x, pole.y, pole.z);
-                for (sum, basis) in r.iter_mut().zip(&c) {
-                    *sum += pole * basis[j];
-                }
-            }
-            out[0] += r[0] * b[0][i];
-            out[1] += r[0] * b[1][i];
-            out[2] += r[1] * b[0][i];
-            out[3] += r[0] * b[2][i];
-            out[4] += r[1] * b[1][i];
-            out[5] += r[2] * b[0][i];
-        }
-        let [p, u, v, uu, uv, vv] = out;
-        SurfaceJet { p: Point3::from(p), u, v, uu, uv, vv }
-    }
     fn sum(&self, b: &Basis, c: &Basis) -> Homogeneous {
         let n = self.degree[1] + 1;
         let row = |poles: &[Homogeneous]| {
@@ -200,22 +178,22 @@ impl Patch {
         };
         self.poles.chunks_exact(n).zip(b).fold(Homogeneous::zeros(), |acc, (r, w)| acc + row(r) * *w)
     }
-    fn sums(&self, b: [&Basis; 3], c: [&Basis; 3]) -> [Homogeneous; 6] {
-        let n = self.degree[1] + 1;
+    /// The homogeneous point and its derivatives, in the order of [`SurfaceJet`].
+    fn sums(&self, u: f64, v: f64) -> [Homogeneous; 6] {
+        let [m, n] = self.degree;
+        if [m, n] == [3, 3] {
+            return bicubic::<4>(&self.poles, u, v);
+        }
+        let (b, c) = (bernstein_jet(m, u), bernstein_jet(n, v));
         let mut out = [Homogeneous::zeros(); 6];
-        for (i, row) in self.poles.chunks_exact(n).enumerate() {
+        for (i, row) in self.poles.chunks_exact(n + 1).enumerate() {
             let mut r = [Homogeneous::zeros(); 3];
             for (j, pole) in row.iter().enumerate() {
-                for (acc, basis) in r.iter_mut().zip(c) {
+                for (acc, basis) in r.iter_mut().zip(&c) {
                     *acc += pole * basis[j];
                 }
             }
-            out[0] += r[0] * b[0][i];
-            out[1] += r[0] * b[1][i];
-            out[2] += r[1] * b[0][i];
-            out[3] += r[0] * b[2][i];
-            out[4] += r[1] * b[1][i];
-            out[5] += r[2] * b[0][i];
+            gather(&mut out, &r, [b[0][i], b[1][i], b[2][i]]);
         }
         out
     }
@@ -290,8 +268,36 @@ fn bernstein(n: usize, t: f64) -> Basis {
     b
 }
 
+/// The first coordinates of the homogeneous point of a bicubic patch and of its derivatives: bicubic patches are the most
+/// frequent by far.
+fn bicubic<const D: usize>(poles: &[Homogeneous], u: f64, v: f64) -> [SVector<f64, D>; 6] {
+    let (b, c) = (cubic(u), cubic(v));
+    let mut out = [SVector::zeros(); 6];
+    for (i, row) in poles.chunks_exact(4).enumerate() {
+        let mut r = [SVector::<f64, D>::zeros(); 3];
+        for (j, pole) in row.iter().enumerate() {
+            let pole = SVector::<f64, D>::from_fn(|k, _| pole[k]);
+            for (sum, basis) in r.iter_mut().zip(&c) {
+                *sum += pole * basis[j];
+            }
+        }
+        gather(&mut out, &r, [b[0][i], b[1][i], b[2][i]]);
+    }
+    out
+}
+
+/// Adds what a row of poles gives: its sums with the basis in v and that basis's derivatives, times those in u.
+fn gather<const D: usize>(out: &mut [SVector<f64, D>; 6], r: &[SVector<f64, D>; 3], b: [f64; 3]) {
+    out[0] += r[0] * b[0];
+    out[1] += r[0] * b[1];
+    out[2] += r[1] * b[0];
+    out[3] += r[0] * b[2];
+    out[4] += r[1] * b[1];
+    out[5] += r[2] * b[0];
+}
+
 /// Bernstein polynomials of degree `n` with first and second derivatives.
-fn bernstein_jet(n: usize, t: f64) -> (Basis, Basis, Basis) {
+fn bernstein_jet(n: usize, t: f64) -> [Basis; 3] {
     let down = |lower: &Basis, degree: usize| {
         let mut d = [0.0; MAX_DEGREE + 1];
         for (k, value) in d.iter_mut().enumerate().take(degree + 1) {
@@ -305,7 +311,7 @@ fn bernstein_jet(n: usize, t: f64) -> (Basis, Basis, Basis) {
     let b1 = if n >= 1 { bernstein(n - 1, t) } else { [0.0; MAX_DEGREE + 1] };
     let first = down(&b1, n);
     let second = if n >= 2 { down(&down(&bernstein(n - 2, t), n - 1), n) } else { [0.0; MAX_DEGREE + 1] };
-    (b, first, second)
+    [b, first, second]
 }
 
 /// Cubic Bernstein polynomials at `t` with first and second derivatives.
