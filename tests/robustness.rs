@@ -244,3 +244,59 @@ proptest! {
         prop_assert!(start.elapsed() < PATIENCE, "took {:?}", start.elapsed());
     }
 }
+
+/// A job on a net of 4 by 4 poles, row by row.
+fn net_job(poles: &[[f64; 3]; 16], operation: &str) -> String {
+    let poles: Vec<String> = poles.iter().map(|[x, y, z]| format!("({x:?}, {y:?}, {z:?})")).collect();
+    format!(
+        "UNITS/ MM\nMACHIN/ LINUXCNC\nN1 = NET/ 4, 4, $\n{}\nT1 = CUTTER/ BALL, 6, NUMBER, 1\nLOADTL/ T1\nSPINDL/ 8000\n\
+         FEDRAT/ 800\nINTOL/ 0\nOUTTOL/ 0.05\nCLEARP/ 90\nSURFAC/ N1, {operation}\nFINI\n",
+        poles.join(", $\n")
+    )
+}
+
+/// A gentle hill over 30 by 30 mm.
+fn hill() -> [[f64; 3]; 16] {
+    const X: [f64; 4] = [0.0, 10.0, 20.0, 30.0];
+    const Z: [f64; 4] = [0.0, 4.0, 3.0, 0.0];
+    core::array::from_fn(|k| [X[k / 4], X[k % 4], Z[k / 4] + Z[k % 4]])
+}
+
+#[test]
+fn degenerate_nets_get_a_coded_answer() {
+    let bent = |change: &dyn Fn(usize, [f64; 3]) -> [f64; 3]| {
+        let net = hill();
+        net_job(&core::array::from_fn(|k| change(k, net[k])), "U, STEP, 6")
+    };
+    for (what, text) in [
+        ("an edge collapses", bent(&|k, [x, y, z]| [x, if k < 4 { 0.0 } else { y }, z])),
+        ("a corner collapses", bent(&|k, p| if k < 2 { [0.0; 3] } else { p })),
+        ("all poles are one", bent(&|_, _| [5.0; 3])),
+        ("all poles lie on a line", bent(&|_, [x, _, _]| [x, 0.0, 0.0])),
+        ("columns change places", bent(&|k, _| hill()[k ^ 1])),
+        ("the surface stands upright", bent(&|_, [x, y, _]| [0.0, y, x])),
+    ] {
+        assert_eq!(first_code(&text), "E0542", "{what}");
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 6, ..ProptestConfig::default() })]
+
+    /// Nets of any shape are refused with a code, or cut without a number that is none.
+    #[test]
+    fn any_net_is_refused_or_proven(moves in proptest::collection::vec(-9.0..9.0f64, 48)) {
+        let net = hill();
+        let poles: [[f64; 3]; 16] =
+            core::array::from_fn(|k| core::array::from_fn(|i| net[k][i] + moves[3 * k + i]));
+        let build = compile(&net_job(&poles, "X, STEP, 8"));
+        match build.outputs.first().and_then(|o| o.proven.as_ref()) {
+            Some(proven) => {
+                let text = proven.text().to_ascii_lowercase();
+                prop_assert!(!text.contains("nan") && !text.contains("inf"), "{text}");
+                prop_assert!(!build.has_errors());
+            }
+            None => prop_assert!(build.has_errors()),
+        }
+    }
+}
