@@ -47,10 +47,10 @@ impl Capsule {
         if self.length > 0.0 {
             let (oa, na) = (offset.dot(&a), at.n.dot(&a));
             let (o, n) = (offset - a * oa, at.n - a * na);
-            if let Some(t) = enters(o, n, radius) {
-                if (0.0..=self.length).contains(&(oa + na * t)) {
-                    return t;
-                }
+            if let Some(t) = enters(o, n, radius)
+                && (0.0..=self.length).contains(&(oa + na * t))
+            {
+                return t;
             }
         }
         let end = |p: Point3| enters(at.p - p, at.n, radius).unwrap_or(f64::INFINITY);
