@@ -10,6 +10,9 @@ use crate::geom::{Point2, Point3, Vec3};
 use crate::ir::{Along, Spacing, Surface};
 use crate::math::count;
 
+/// Passes with their room, each beside the next.
+type Chain = Vec<(Track, Vec<f64>)>;
+
 /// A pass or a way between two; `last`: the cutter leaves the surface after it.
 #[derive(Debug, Clone)]
 pub(super) struct Leg {
@@ -242,7 +245,7 @@ impl Family {
     }
 
     /// The passes as tracks, each with its room, in chains: one pass of a chain lies beside the next.
-    fn chains(&self, surface: &Surface, target: Target) -> Result<Vec<Vec<(Track, Vec<f64>)>>, String> {
+    fn chains(&self, surface: &Surface, target: Target) -> Result<Vec<Chain>, String> {
         if matches!(surface.along, Along::IsoCusp | Along::Const) {
             let both = [self.along_axis(0), self.along_axis(1)];
             let (family, spread) = march::shortest(both, target, surface.along == Along::Const)?;
@@ -292,7 +295,7 @@ impl Family {
     }
 
     /// The passes of one chain, and the ways between them.
-    fn chain(&self, chain: Vec<(Track, Vec<f64>)>, zigzag: bool, legs: &mut Vec<Leg>) {
+    fn chain(&self, chain: Chain, zigzag: bool, legs: &mut Vec<Leg>) {
         for (k, (mut track, mut room)) in chain.into_iter().enumerate() {
             if zigzag && k % 2 == 1 {
                 track = track.reversed();

@@ -22,7 +22,7 @@ impl Planner<'_> {
     ) {
         let Some((top, lowest)) = surface.stock_top.zip(lowest(tree)) else { return };
         let depth = top - lowest.z - surface.leave;
-        if !(depth > 0.0) {
+        if depth.is_nan() || depth <= 0.0 {
             return;
         }
         let cutter = &self.program.tools[surface.tool];

@@ -276,7 +276,7 @@ impl<'a> Path<'a> {
             return Some(start);
         }
         if pocket.airy
-            && let Some(start) = self.from_outside(z, ring)
+            && let Some(start) = self.enter_from_outside(z, ring)
         {
             return Some(start);
         }
@@ -296,7 +296,7 @@ impl<'a> Path<'a> {
     }
 
     /// To a ring from beside the blank, where it is nearest to that.
-    fn from_outside(&mut self, z: f64, ring: &Ring) -> Option<usize> {
+    fn enter_from_outside(&mut self, z: f64, ring: &Ring) -> Option<usize> {
         let off = |k: &usize| self.ground.blank.distance(ring.points[*k]);
         let mut places: Vec<usize> = (0..ring.points.len()).collect();
         places.sort_by(|a, b| off(b).total_cmp(&off(a)));

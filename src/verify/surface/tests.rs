@@ -54,7 +54,7 @@ fn lines(build: &Build) -> (usize, f64) {
         };
         let now = (to.x, to.y, to.z);
         if let Some((x, y, z)) = before {
-            let square = |a: i64, b: i64| ((a - b) as f64).powi(2);
+            let square = |a: i64, b: i64| ((a - b) * (a - b)) as f64;
             length += (square(now.0, x) + square(now.1, y) + square(now.2, z)).sqrt() * 1e-3;
             count += 1;
         }
