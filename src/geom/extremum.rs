@@ -23,22 +23,42 @@ pub(crate) fn maximum(f: impl Fn(f64) -> f64, a: f64, b: f64, samples: usize) ->
 pub(crate) fn golden(f: impl Fn(f64) -> f64, a: f64, b: f64) -> (f64, f64) {
     /// 1/φ to the 48th is 1e-10: beyond that, values near a maximum differ by less than rounding.
     const STEPS: usize = 48;
-    const RATIO: f64 = 0.618_033_988_749_894_9;
-    let (mut lo, mut hi) = (a, b);
-    let (mut x, mut y) = (hi - RATIO * (hi - lo), lo + RATIO * (hi - lo));
-    let (mut fx, mut fy) = (f(x), f(y));
-    for _ in 0..STEPS {
-        if fx >= fy {
-            (hi, y, fy) = (y, x, fx);
-            x = hi - RATIO * (hi - lo);
-            fx = f(x);
-        } else {
-            (lo, x, fx) = (x, y, fy);
-            y = lo + RATIO * (hi - lo);
-            fy = f(y);
+    Section::about_maximum(f, (a, b), STEPS).best()
+}
+
+/// What golden section leaves of an interval: its ends and the two places within, with their values.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Section {
+    pub ends: (f64, f64),
+    pub inner: [(f64, f64); 2],
+}
+
+impl Section {
+    /// Narrows an interval about a maximum of a function with one hill, by 1/φ a step.
+    pub(crate) fn about_maximum(f: impl Fn(f64) -> f64, (a, b): (f64, f64), steps: usize) -> Section {
+        const RATIO: f64 = 0.618_033_988_749_894_9;
+        let (mut lo, mut hi) = (a, b);
+        let (mut x, mut y) = (hi - RATIO * (hi - lo), lo + RATIO * (hi - lo));
+        let (mut fx, mut fy) = (f(x), f(y));
+        for _ in 0..steps {
+            if fx >= fy {
+                (hi, y, fy) = (y, x, fx);
+                x = hi - RATIO * (hi - lo);
+                fx = f(x);
+            } else {
+                (lo, x, fx) = (x, y, fy);
+                y = lo + RATIO * (hi - lo);
+                fy = f(y);
+            }
         }
+        Section { ends: (lo, hi), inner: [(x, fx), (y, fy)] }
     }
-    if fx >= fy { (x, fx) } else { (y, fy) }
+
+    /// The better of the places within, and its value.
+    pub(crate) fn best(&self) -> (f64, f64) {
+        let [x, y] = self.inner;
+        if x.1 >= y.1 { x } else { y }
+    }
 }
 
 /// A root of `f` in [a, b], at whose ends it has different signs (or is 0), by bisection to rounding.

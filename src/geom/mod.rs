@@ -6,7 +6,7 @@
 pub mod cam;
 pub mod crossing;
 pub mod curve;
-mod extremum;
+pub(crate) mod extremum;
 pub mod follower;
 pub mod measure;
 pub mod motion;

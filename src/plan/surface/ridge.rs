@@ -10,9 +10,13 @@ use rayon::prelude::*;
 
 use super::family::Family;
 use super::spread::{COLUMNS, Line};
+use crate::geom::extremum::Section;
 use crate::geom::surface::Contact;
 use crate::geom::{Point3, Vec3};
 use crate::math::count;
+
+/// Steps of the search between columns.
+const ROUNDS: usize = 12;
 
 /// What decides about the distance of passes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -144,29 +148,10 @@ impl Row {
         let at = |k: usize| self.centre(k).map_or(f64::INFINITY, cost);
         let Some(k) = self.descend(k, &at) else { return f64::INFINITY };
         let best = at(k);
-        let between = |s: f64| self.between(s).map_or(f64::INFINITY, cost);
-        best.min(golden(&between, (count(k) - 1.0).max(0.0), (count(k) + 1.0).min(count(COLUMNS - 1))))
+        let between = |s: f64| -self.between(s).map_or(f64::INFINITY, cost);
+        let near = ((count(k) - 1.0).max(0.0), (count(k) + 1.0).min(count(COLUMNS - 1)));
+        best.min(-Section::about_maximum(between, near, ROUNDS).best().1)
     }
-}
-
-/// The least of a function with one valley.
-fn golden(f: &dyn Fn(f64) -> f64, mut a: f64, mut b: f64) -> f64 {
-    const SHARE: f64 = 0.618_033_988_749_894_9;
-    const ROUNDS: u32 = 12;
-    let (mut x, mut y) = (b - SHARE * (b - a), a + SHARE * (b - a));
-    let (mut fx, mut fy) = (f(x), f(y));
-    for _ in 0..ROUNDS {
-        if fx < fy {
-            (b, y, fy) = (y, x, fx);
-            x = b - SHARE * (b - a);
-            fx = f(x);
-        } else {
-            (a, x, fx) = (x, y, fy);
-            y = a + SHARE * (b - a);
-            fy = f(y);
-        }
-    }
-    fx.min(fy)
 }
 
 /// Column `k` of a range of places along.

@@ -4,6 +4,7 @@
 
 use super::search::{Aim, Search, solve};
 use super::{Foot, SurfaceTree};
+use crate::geom::extremum::Section;
 use crate::geom::surface::cutter::Cutter;
 use crate::geom::surface::patch::SurfaceJet;
 use crate::geom::{Point3, Vec3};
@@ -45,22 +46,8 @@ impl Sweep<'_> {
 
 /// Where a convex function is lowest between 0 and 1.
 fn lowest(f: &dyn Fn(f64) -> f64) -> f64 {
-    const SHARE: f64 = 0.618_033_988_749_894_9;
-    const ROUNDS: u32 = 34;
-    let (mut a, mut b) = (0.0, 1.0);
-    let (mut x, mut y) = (1.0 - SHARE, SHARE);
-    let (mut fx, mut fy) = (f(x), f(y));
-    for _ in 0..ROUNDS {
-        if fx < fy {
-            (b, y, fy) = (y, x, fx);
-            x = b - SHARE * (b - a);
-            fx = f(x);
-        } else {
-            (a, x, fx) = (x, y, fy);
-            y = a + SHARE * (b - a);
-            fy = f(y);
-        }
-    }
+    const ROUNDS: usize = 34;
+    let (a, b) = Section::about_maximum(|s| -f(s), (0.0, 1.0), ROUNDS).ends;
     let middle = 0.5 * (a + b);
     [0.0, 1.0].into_iter().fold(middle, |best, end| if f(end) < f(best) { end } else { best })
 }

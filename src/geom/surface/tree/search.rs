@@ -9,6 +9,7 @@
 use std::collections::BinaryHeap;
 
 use super::{Area, Kind, Leaf, SurfaceTree};
+use crate::geom::extremum::Section;
 use crate::geom::surface::patch::SurfaceJet;
 use crate::geom::{Point3, Vec3};
 
@@ -269,28 +270,15 @@ impl<'a, A: Aim> Search<'a, A> {
 
     /// Golden section about a part of an edge.
     fn along_edge(&mut self, patch: usize, (a, b): (f64, f64), middle: f64, place: &dyn Fn(f64) -> [f64; 2]) {
-        const SHARE: f64 = 0.618_033_988_749_894_9;
-        const ROUNDS: u32 = 48;
+        const ROUNDS: usize = 48;
         let surface = &self.tree.net.patches()[patch];
         let reach = b - a;
-        let (mut a, mut b) = ((middle - reach).max(0.0), (middle + reach).min(1.0));
+        let range = ((middle - reach).max(0.0), (middle + reach).min(1.0));
         let score = |t: f64| {
             let [u, v] = place(t);
             self.aim.score(surface.point(u, v))
         };
-        let (mut x, mut y) = (b - SHARE * (b - a), a + SHARE * (b - a));
-        let (mut fx, mut fy) = (score(x), score(y));
-        for _ in 0..ROUNDS {
-            if fx > fy {
-                (b, y, fy) = (y, x, fx);
-                x = b - SHARE * (b - a);
-                fx = score(x);
-            } else {
-                (a, x, fx) = (x, y, fy);
-                y = a + SHARE * (b - a);
-                fy = score(y);
-            }
-        }
+        let Section { ends: (a, b), inner: [(x, _), (y, _)] } = Section::about_maximum(score, range, ROUNDS);
         for t in [a, x, y, b] {
             let [u, v] = place(t);
             self.offer(patch, [u, v], surface.point(u, v));
