@@ -8,7 +8,7 @@
 use rayon::prelude::*;
 
 use super::Swept;
-use super::field::{Field, TILES};
+use super::field::{Field, tiles};
 use super::moves::Worst;
 use super::tile::Tile;
 use crate::cl::{Finish, Operation};
@@ -47,9 +47,7 @@ pub(super) fn check(
     // On a convex surface the chords of a path that is off by OUTTOL leave more at their ends, by the radii' ratio.
     let bulge = (1.0 + (finish.radius + finish.leave) * most_convex(finish)).max(1.0);
     let allowed = finish.cusp.map(|h| h + operation.band.out * bulge + ACCURACY);
-    let tiles: Vec<(usize, u32)> = (0..finish.tree.net().patches().len())
-        .flat_map(|patch| (0..TILES * TILES).map(move |tile| (patch, tile)))
-        .collect();
+    let tiles = tiles(&finish.tree);
     let mut field = Field::new(operation, finish, passes, (allowed.unwrap_or(UNKNOWN), bulge));
     let places: Vec<Worst> = tiles.par_iter().map(|(patch, tile)| field.sampled(*patch, *tile)).collect();
     let mut left = Worst::NONE;

@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use super::Swept;
+use super::buckets::Buckets;
 use super::capsule::{Capsule, Corner};
 use super::moves::Worst;
 use crate::cl::{Finish, Operation};
@@ -10,6 +11,12 @@ use crate::geom::surface::{Foot, SurfaceTree};
 
 /// Tiles of a patch in each direction, checked in parallel.
 pub(super) const TILES: u32 = 16;
+/// All tiles of all patches: patch, and number of the tile.
+pub(super) fn tiles(tree: &SurfaceTree) -> Vec<(usize, u32)> {
+    let patches = 0..tree.net().patches().len();
+    patches.flat_map(|patch| (0..TILES * TILES).map(move |tile| (patch, tile))).collect()
+}
+
 /// Moves that leave more than this times what is allowed are not looked for: what is then reported is more than allowed,
 /// too.
 const INTEREST: f64 = 1.5;
@@ -36,10 +43,7 @@ pub(super) struct Field<'a> {
     pub capsules: Vec<Capsule>,
     /// Moves whose centres pass farther beside a point leave more there than is of interest, mm.
     around: f64,
-    low: [f64; 2],
-    cell: f64,
-    counts: [usize; 2],
-    buckets: Vec<Vec<u32>>,
+    buckets: Buckets,
 }
 
 impl<'a> Field<'a> {
@@ -49,20 +53,6 @@ impl<'a> Field<'a> {
         passes: &'a [Swept],
         (allowed, bulge): (f64, f64),
     ) -> Field<'a> {
-        let mut low = [f64::INFINITY; 2];
-        let mut high = [f64::NEG_INFINITY; 2];
-        for swept in passes {
-            for p in [swept.from, swept.to] {
-                for i in 0..2 {
-                    low[i] = low[i].min(p[i]);
-                    high[i] = high[i].max(p[i]);
-                }
-            }
-        }
-        let extent = (high[0] - low[0]).max(high[1] - low[1]).max(1e-3);
-        let cell = (finish.radius / 6.0).max(extent / 2000.0);
-        let empty = passes.is_empty();
-        let counts = [0, 1].map(|i| if empty { 1 } else { ((high[i] - low[i]) / cell).floor() as usize + 1 });
         let mut field = Field {
             tree: &finish.tree,
             radius: finish.radius,
@@ -75,24 +65,12 @@ impl<'a> Field<'a> {
             passes,
             capsules: passes.iter().map(Capsule::new).collect(),
             around: 0.0,
-            low,
-            cell,
-            counts,
-            buckets: vec![Vec::new(); counts[0] * counts[1]],
+            buckets: Buckets::new(passes, finish.radius / 6.0, 2000.0),
         };
         field.look_around(allowed, bulge);
         if field.cusps {
             let (tree, ball) = (field.tree, field.ball);
             field.capsules.par_iter_mut().for_each(|c| c.measure(tree, ball));
-        }
-        for (i, swept) in passes.iter().enumerate() {
-            let range = |k: usize| (swept.from[k].min(swept.to[k]), swept.from[k].max(swept.to[k]));
-            let (x, y) = (field.index(0, range(0)), field.index(1, range(1)));
-            for a in x.0..=x.1 {
-                for b in y.0..=y.1 {
-                    field.buckets[a * counts[1] + b].push(u32::try_from(i).unwrap_or(u32::MAX));
-                }
-            }
         }
         field
     }
@@ -104,7 +82,12 @@ impl<'a> Field<'a> {
 
     /// Looks so far around a place that what is not seen leaves more than is allowed.
     pub(super) fn look_around(&mut self, allowed: f64, bulge: f64) {
-        self.around = (2.0 * self.radius * INTEREST * allowed * bulge).sqrt().min(self.radius);
+        self.around = self.beside(allowed, bulge);
+    }
+
+    /// How far beside a point a move may pass that leaves so much there, mm.
+    fn beside(&self, most: f64, bulge: f64) -> f64 {
+        (2.0 * self.radius * INTEREST * most * bulge).sqrt().min(self.radius)
     }
 
     /// The most that is left at a few places of a tile.
@@ -129,10 +112,17 @@ impl<'a> Field<'a> {
         most
     }
 
-    /// The least that any move near a place of a patch leaves there, and that move; `near` is scratch.
-    pub(super) fn lowest(&self, patch: usize, uv: [f64; 2], near: &mut Vec<u32>) -> Option<(f64, &'a Swept)> {
+    /// The least that any move near a place of a patch leaves there, and that move, certain up to `most` mm; `near` is
+    /// scratch.
+    pub(super) fn lowest(
+        &self,
+        patch: usize,
+        uv: [f64; 2],
+        most: f64,
+        near: &mut Vec<u32>,
+    ) -> Option<(f64, &'a Swept)> {
         let corner = Corner::new(self.tree.net().patches().get(patch)?, uv[0], uv[1])?;
-        self.gather(&[corner], near);
+        self.gather_within(&[corner], self.beside(most, 1.0), near);
         let heights = near.iter().map(|i| (self.height(*i, &corner), *i));
         let (height, by) = heights.min_by(|a, b| a.0.total_cmp(&b.0)).filter(|(h, _)| h.is_finite())?;
         Some((height, self.passes.get(by as usize)?))
@@ -144,17 +134,12 @@ impl<'a> Field<'a> {
         Worst { value, line, block, at: at.p }
     }
 
-    /// Bucket numbers of a range of a coordinate.
-    fn index(&self, axis: usize, range: (f64, f64)) -> (usize, usize) {
-        let most = self.counts[axis] - 1;
-        // Floats saturate: what lies outside counts to the border.
-        let of = |x: f64| (((x - self.low[axis]) / self.cell).floor().max(0.0) as usize).min(most);
-        (of(range.0), of(range.1))
-    }
-
     /// Moves that may reach the corners of a cell.
     pub(super) fn gather(&self, corners: &[Corner], near: &mut Vec<u32>) {
-        near.clear();
+        self.gather_within(corners, self.around, near);
+    }
+
+    fn gather_within(&self, corners: &[Corner], around: f64, near: &mut Vec<u32>) {
         let mut low = [f64::INFINITY; 2];
         let mut high = [f64::NEG_INFINITY; 2];
         for c in corners {
@@ -164,18 +149,7 @@ impl<'a> Field<'a> {
                 high[i] = high[i].max(centre[i]);
             }
         }
-        let around = self.around;
-        let (x, y) = (
-            self.index(0, (low[0] - around, high[0] + around)),
-            self.index(1, (low[1] - around, high[1] + around)),
-        );
-        for a in x.0..=x.1 {
-            for b in y.0..=y.1 {
-                near.extend(&self.buckets[a * self.counts[1] + b]);
-            }
-        }
-        near.sort_unstable();
-        near.dedup();
+        self.buckets.gather([0, 1].map(|i| (low[i] - around, high[i] + around)), near);
     }
 
     /// Whether the ball can be set on a point without gouging elsewhere.

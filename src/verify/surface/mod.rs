@@ -3,6 +3,7 @@
 //! [`moves`] proves that no move goes deeper into the surface than `INTOL`, and that passes leave it by no more than
 //! `OUTTOL`; [`clearing`] that rapids of a roughing are clear of what is left of the blank; [`cover`] that the swept ball leaves nowhere more than the height of cusps and `OUTTOL` together.
 
+mod buckets;
 mod capsule;
 mod clearing;
 mod cover;

@@ -27,8 +27,7 @@ pub struct Left {
 pub struct Remaining<'a> {
     /// Heights up to here are found among the moves close by.
     little: f64,
-    close: Field<'a>,
-    all: Field<'a>,
+    field: Field<'a>,
 }
 
 impl Sweep {
@@ -54,8 +53,7 @@ impl<'a> Remaining<'a> {
     /// Heights of up to `little` (mm) are told quickly; more is told up to where no move comes near.
     #[must_use]
     pub fn new(operation: &Operation, sweep: &'a Sweep, little: f64) -> Remaining<'a> {
-        let field = |most: f64| Field::new(operation, &sweep.finish, &sweep.moves, (most, 1.0));
-        Remaining { little, close: field(little), all: field(sweep.finish.radius) }
+        Remaining { little, field: Field::new(operation, &sweep.finish, &sweep.moves, (little, 1.0)) }
     }
     /// What is told quickly, mm.
     #[must_use]
@@ -65,8 +63,8 @@ impl<'a> Remaining<'a> {
     /// What is left at a place of a patch; `None` where the surface has no normal or no move comes near.
     #[must_use]
     pub fn at(&self, patch: usize, uv: [f64; 2], near: &mut Vec<u32>) -> Option<Left> {
-        let close = self.close.lowest(patch, uv, near).filter(|(h, _)| *h <= self.little);
-        let (height, swept) = close.or_else(|| self.all.lowest(patch, uv, near))?;
+        let close = self.field.lowest(patch, uv, self.little, near).filter(|(h, _)| *h <= self.little);
+        let (height, swept) = close.or_else(|| self.field.lowest(patch, uv, self.field.radius, near))?;
         Some(Left { height, line: swept.line })
     }
 }

@@ -7,14 +7,14 @@
 use rayon::prelude::*;
 
 use super::Swept;
+use super::buckets::Buckets;
 use super::cover::Cover;
+use super::field::{TILES, tiles};
 use super::moves::Worst;
 use crate::cl::Finish;
 use crate::geom::surface::{Cutter, Patch};
 use crate::geom::{Point3, Vec3};
 
-/// Tiles of a patch in each direction.
-const TILES: u32 = 16;
 /// Heights below this need not be told apart, mm.
 const FLOOR: f64 = 0.02;
 /// A bound this much above what is known to be left is close enough.
@@ -29,9 +29,7 @@ const CANDIDATES: usize = 6;
 /// The largest height left, and a bound of it.
 pub(super) fn check(finish: &Finish, passes: &[Swept]) -> Cover {
     let field = Field::new(finish, passes);
-    let tiles: Vec<(usize, u32)> = (0..finish.tree.net().patches().len())
-        .flat_map(|patch| (0..TILES * TILES).map(move |tile| (patch, tile)))
-        .collect();
+    let tiles = tiles(&finish.tree);
     let found: Vec<(Worst, f64)> = tiles.par_iter().map(|(patch, tile)| field.tile(*patch, *tile)).collect();
     let mut cover = Cover { left: Worst::NONE, bound: 0.0, cusp: None, unreachable: None };
     for (left, bound) in found {
@@ -47,10 +45,7 @@ struct Field<'a> {
     finish: &'a Finish,
     passes: &'a [Swept],
     reach: f64,
-    low: [f64; 2],
-    cell: f64,
-    counts: [usize; 2],
-    buckets: Vec<Vec<u32>>,
+    buckets: Buckets,
 }
 
 #[derive(Clone, Copy)]
@@ -67,53 +62,15 @@ struct Corner {
 
 impl<'a> Field<'a> {
     fn new(finish: &'a Finish, passes: &'a [Swept]) -> Field<'a> {
-        let mut low = [f64::INFINITY; 2];
-        let mut high = [f64::NEG_INFINITY; 2];
-        for p in passes.iter().flat_map(|s| [s.from, s.to]) {
-            for i in 0..2 {
-                low[i] = low[i].min(p[i]);
-                high[i] = high[i].max(p[i]);
-            }
-        }
-        let extent = (high[0] - low[0]).max(high[1] - low[1]).max(1e-3);
-        let cell = (finish.cutter.radius() / 3.0).max(extent / 1000.0);
-        // Floats saturate.
-        let count =
-            |i: usize| if passes.is_empty() { 1 } else { ((high[i] - low[i]) / cell).floor() as usize + 1 };
-        let counts = [count(0), count(1)];
         let reach = finish.cutter.radius() + finish.leave;
-        let buckets = vec![Vec::new(); counts[0] * counts[1]];
-        let mut field = Field { finish, passes, reach, low, cell, counts, buckets };
-        for (i, swept) in passes.iter().enumerate() {
-            let range = |k: usize| (swept.from[k].min(swept.to[k]), swept.from[k].max(swept.to[k]));
-            let (x, y) = (field.index(0, range(0)), field.index(1, range(1)));
-            for a in x.0..=x.1 {
-                for b in y.0..=y.1 {
-                    field.buckets[a * counts[1] + b].push(u32::try_from(i).unwrap_or(u32::MAX));
-                }
-            }
-        }
-        field
-    }
-
-    fn index(&self, axis: usize, range: (f64, f64)) -> (usize, usize) {
-        let most = self.counts[axis] - 1;
-        let of = |x: f64| (((x - self.low[axis]) / self.cell).floor().max(0.0) as usize).min(most);
-        (of(range.0), of(range.1))
+        let buckets = Buckets::new(passes, finish.cutter.radius() / 3.0, 1000.0);
+        Field { finish, passes, reach, buckets }
     }
 
     /// The moves that come nearest to a place, with their distance from it.
     fn nearest(&self, at: Point3) -> Vec<(f64, u32)> {
-        let around = |i: usize| (at[i] - self.reach, at[i] + self.reach);
-        let (x, y) = (self.index(0, around(0)), self.index(1, around(1)));
         let mut near = Vec::new();
-        for a in x.0..=x.1 {
-            for b in y.0..=y.1 {
-                near.extend(&self.buckets[a * self.counts[1] + b]);
-            }
-        }
-        near.sort_unstable();
-        near.dedup();
+        self.buckets.gather([0, 1].map(|i| (at[i] - self.reach, at[i] + self.reach)), &mut near);
         let apart = |i: &u32| {
             let swept = self.passes.get(*i as usize)?;
             Some((self.finish.cutter.outside((swept.from, swept.to), at).0, *i))
