@@ -1,19 +1,11 @@
 //! Roughing of nets: the forms of `ROUGH` that take one.
 
 use super::operations::CUT;
-use super::surfaces::{ALONG, ORDER};
-use super::{Choices, EntityKind, Form, Item, Kind, NOT_NEGATIVE, POSITIVE, Range, form, value, with, word};
+use super::surfaces::{ALONG, LEAVE, ORDER, STEP};
+use super::{Choices, EntityKind, Form, Item, Kind, POSITIVE, Range, form, value, with, word};
 use crate::units::Dim;
 
 const NET: Item = value("net", Kind::Entity(&[EntityKind::Net]), "the net");
-
-const STEP: Choices = with(
-    "step",
-    &[word("STEP", "largest distance between passes, in place of a height of cusps")],
-    &[value("step", POSITIVE, "length")],
-    false,
-    "from the height of cusps",
-);
 
 const CUSP: Choices = with(
     "cusp",
@@ -65,13 +57,7 @@ pub(super) const LEVELS: Form = form(
             false,
             "as STEP",
         ),
-        with(
-            "leave",
-            &[word("LEAVE", "stock left on the surface")],
-            &[value("leave", NOT_NEGATIVE, "length")],
-            false,
-            "as THICK says",
-        ),
+        LEAVE,
         with(
             "ramp",
             &[word("RAMP", "steepest way down into material, 0.5 to 45 degrees")],

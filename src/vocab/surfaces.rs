@@ -89,6 +89,22 @@ pub const NETS: &[Statement] = &[Statement {
     members: NET_MEMBERS,
 }];
 
+pub(super) const STEP: Choices = with(
+    "step",
+    &[word("STEP", "largest distance between passes, in place of a height of cusps")],
+    &[value("step", POSITIVE, "length")],
+    false,
+    "from the height of cusps",
+);
+
+pub(super) const LEAVE: Choices = with(
+    "leave",
+    &[word("LEAVE", "stock left on the surface")],
+    &[value("leave", NOT_NEGATIVE, "length")],
+    false,
+    "as THICK says",
+);
+
 /// How passes follow each other.
 pub(super) const ORDER: Choices = choices(
     "order",
@@ -127,13 +143,7 @@ const SURFAC: &[Form] = &[form(
             false,
             "as CUSP/ says",
         ),
-        with(
-            "step",
-            &[word("STEP", "largest distance between passes, in place of a height of cusps")],
-            &[value("step", POSITIVE, "length")],
-            false,
-            "from the height of cusps",
-        ),
+        STEP,
         with(
             "gouge",
             &[word("GOUGE", "what to do where the cutter does not fit")],
@@ -147,13 +157,7 @@ const SURFAC: &[Form] = &[form(
             false,
             "AVOID",
         ),
-        with(
-            "leave",
-            &[word("LEAVE", "stock left on the surface")],
-            &[value("leave", NOT_NEGATIVE, "length")],
-            false,
-            "as THICK says",
-        ),
+        LEAVE,
     ],
 )];
 
