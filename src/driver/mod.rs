@@ -8,11 +8,12 @@ use std::sync::{Mutex, PoisonError};
 use crate::cl::Cl;
 use crate::diag::codes::command as codes;
 use crate::diag::{Diagnostic, Severity, Sink};
+use crate::plan::closer::{Closer, Place};
 use crate::source::{FileError, FileId, FileProvider, SourceMap};
 use crate::syntax::{self, ast};
 use crate::target::TargetProgram;
 use crate::units::LengthUnit;
-use crate::verify::Proven;
+use crate::verify::{Proven, Shortfall};
 use crate::{clfile, ir, plan, sema};
 
 mod parts;
@@ -158,7 +159,10 @@ fn cl_stages(
     }
     if !options.check_only {
         let wanted = targets::wanted(options, &targets::Machines::default(), sink);
-        build.outputs = targets::make(&cl, &wanted, options, files, &mut build.sources, sink);
+        let ready = targets::ready(cl.units, &wanted, options, files, &mut build.sources, sink);
+        let made = targets::make(&cl, &ready, &build.sources);
+        sink.append(made.messages);
+        build.outputs = made.outputs;
     }
     build.cl = Some(cl);
 }
@@ -221,13 +225,46 @@ fn stages(build: &mut Build, file: FileId, files: &dyn FileProvider, options: &O
 /// From the evaluated program on. What is wrong with the posts is said in any case.
 fn back(build: &mut Build, files: &dyn FileProvider, options: &Options, sink: &mut Sink) {
     let Some(ir) = &build.ir else { return };
-    build.cl = plan::plan(ir, sink);
+    let mut planned = Sink::default();
+    build.cl = plan::plan(ir, &mut planned);
     let machines = targets::Machines::of(ir);
-    let Some(cl) = build.cl.as_ref().filter(|_| !options.check_only) else {
+    let Some(cl) = build.cl.take_if(|_| !options.check_only) else {
+        sink.append(planned);
         return targets::check(options, &machines, files, &mut build.sources, sink);
     };
     let wanted = targets::wanted(options, &machines, sink);
-    build.outputs = targets::make(cl, &wanted, options, files, &mut build.sources, sink);
+    let ready = targets::ready(ir.units, &wanted, options, files, &mut build.sources, sink);
+    let (cl, made) = closer(ir, (cl, &mut planned), &ready, &build.sources);
+    build.cl = Some(cl);
+    sink.append(planned);
+    sink.append(made.messages);
+    build.outputs = made.outputs;
+}
+
+/// The programs of all posts; where a proof finds that too much is left between passes, and nothing else is wrong, planned
+/// again with passes that lie closer there. Rounds are few; what the last one says holds.
+fn closer(
+    ir: &ir::Program,
+    (mut cl, planned): (Cl, &mut Sink),
+    ready: &[targets::Ready],
+    sources: &SourceMap,
+) -> (Cl, targets::Made) {
+    let mut made = targets::make(&cl, ready, sources);
+    let mut closer = Closer::default();
+    for round in 1..plan::closer::ROUNDS {
+        if made.short.is_empty() {
+            break;
+        }
+        let place = |s: &Shortfall| (s.operation, Place { at: s.at, reach: s.reach, share: s.share });
+        let places: Vec<(usize, Place)> = made.short.iter().map(place).collect();
+        closer.add(&places, round >= plan::closer::EVERYWHERE);
+        let mut told = Sink::default();
+        let Some(next) = plan::plan_closer(ir, &closer, &mut told) else { break };
+        *planned = told;
+        made = targets::make(&next, ready, sources);
+        cl = next;
+    }
+    (cl, made)
 }
 
 /// By file and place; what has no place comes last. Messages at one place stay in the order they came.

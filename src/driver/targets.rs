@@ -12,9 +12,9 @@ use crate::diag::{Diagnostic, Label, Severity, Sink};
 use crate::ir::{Machine, Origin, Program};
 use crate::post::{self, Dialect};
 use crate::source::{FileProvider, SourceMap, Span};
-use crate::target::{Capabilities, TargetProgram};
+use crate::target::Capabilities;
 use crate::units::LengthUnit;
-use crate::verify::{self, Emitted, Place, Proven};
+use crate::verify::{self, Emitted, Place, Proven, Shortfall};
 use crate::{lower, target};
 
 /// The machines that a program names, with the places of their statements.
@@ -97,31 +97,48 @@ impl Ready {
     }
 }
 
-/// Makes the program of every wanted post.
-pub(super) fn make(
-    cl: &Cl,
+/// The posts that are wanted; none where something is wrong with one of them.
+pub(super) fn ready(
+    units: LengthUnit,
     wanted: &[Wanted<'_>],
     options: &Options,
     files: &dyn FileProvider,
     sources: &mut SourceMap,
     sink: &mut Sink,
-) -> Vec<Output> {
-    let ready: Vec<Ready> =
-        wanted.iter().filter_map(|w| prepare(cl.units, w, options, files, sources, sink)).collect();
-    if sink.has_errors() {
-        return Vec::new();
-    }
-    let sources = &*sources;
-    let made: Vec<(Output, Sink)> = match ready.as_slice() {
+) -> Vec<Ready> {
+    let ready = wanted.iter().filter_map(|w| prepare(units, w, options, files, sources, sink)).collect();
+    if sink.has_errors() { Vec::new() } else { ready }
+}
+
+/// What came of all posts.
+pub(super) struct Made {
+    pub outputs: Vec<Output>,
+    pub messages: Sink,
+    /// Where passes must lie closer; none unless that alone is wrong.
+    pub short: Vec<Shortfall>,
+}
+
+/// Makes the program of every post.
+pub(super) fn make(cl: &Cl, ready: &[Ready], sources: &SourceMap) -> Made {
+    let made: Vec<One> = match ready {
         [only] => vec![one(cl, only, sources)],
         several => several.par_iter().map(|r| one(cl, r, sources)).collect(),
     };
-    made.into_iter()
-        .map(|(output, messages)| {
-            sink.append(messages);
-            output
-        })
-        .collect()
+    let mut all = Made { outputs: Vec::new(), messages: Sink::default(), short: Vec::new() };
+    let curable = made.iter().all(|one| one.output.proven.is_some() || !one.short.is_empty());
+    for one in made {
+        all.outputs.push(one.output);
+        all.messages.append(one.messages);
+        all.short.extend(one.short.into_iter().filter(|_| curable));
+    }
+    all
+}
+
+/// What came of one post.
+struct One {
+    output: Output,
+    messages: Sink,
+    short: Vec<Shortfall>,
 }
 
 pub(super) fn prepare(
@@ -156,27 +173,24 @@ pub(super) fn prepare(
 }
 
 /// Lowers, writes and proves one program.
-fn one(cl: &Cl, ready: &Ready, sources: &SourceMap) -> (Output, Sink) {
-    let mut sink = Sink::default();
+fn one(cl: &Cl, ready: &Ready, sources: &SourceMap) -> One {
+    let (mut sink, mut short) = (Sink::default(), Vec::new());
     let target = lower::lower(cl, &ready.capabilities, &mut sink);
     let emitted = target.as_ref().and_then(|t| written(&ready.dialect, t, &cl.origins, &mut sink));
     let lines = emitted.as_ref().map(|e| e.lines.clone()).unwrap_or_default();
-    let proven = target.as_ref().zip(emitted).and_then(|(t, e)| prove(cl, ready, t, e, sources, &mut sink));
-    (Output { target, lines, proven, ..ready.output(cl.units) }, sink)
-}
-
-fn prove(
-    cl: &Cl,
-    ready: &Ready,
-    target: &TargetProgram,
-    emitted: Emitted,
-    sources: &SourceMap,
-    sink: &mut Sink,
-) -> Option<Proven> {
-    let mut proven =
-        verify::prove(cl, target, emitted, ready.dialect.control_with(&ready.capabilities.options), sink)?;
-    locate(&mut proven, sources);
-    Some(proven)
+    let mut proven = None;
+    if let Some((target, emitted)) = target.as_ref().zip(emitted) {
+        let control = ready.dialect.control_with(&ready.capabilities.options);
+        match verify::prove_or_tell(cl, target, emitted, control, &mut sink) {
+            Ok(mut found) => {
+                locate(&mut found, sources);
+                proven = Some(found);
+            }
+            Err(places) => short = places,
+        }
+    }
+    let output = Output { target, lines, proven, ..ready.output(cl.units) };
+    One { output, messages: sink, short }
 }
 
 /// Says in the certificate where the operations stand.

@@ -70,3 +70,40 @@ fn a_net_that_is_turned_by_a_right_angle_gives_the_path_turned() {
     let (here, there) = (positions(""), positions("TRACUT/ (MATRIX/ XYROT, 90)\n"));
     near(here.iter().map(|p| [-p[1], p[0], p[2]]), &there);
 }
+
+/// Two planes that meet in a ridge across the passes' distance, so that no pass need lie on it.
+const ROOF: &str = "\
+UNITS/ MM
+N1 = NET/ 4, 7, (0, 0, 0), (0, 3, 2), (0, 6, 4), (0, 9, 6), (0, 12, 4), (0, 15, 2), (0, 18, 0), $
+  (5, 0, 0), (5, 3, 2), (5, 6, 4), (5, 9, 6), (5, 12, 4), (5, 15, 2), (5, 18, 0), $
+  (10, 0, 0), (10, 3, 2), (10, 6, 4), (10, 9, 6), (10, 12, 4), (10, 15, 2), (10, 18, 0), $
+  (15, 0, 0), (15, 3, 2), (15, 6, 4), (15, 9, 6), (15, 12, 4), (15, 15, 2), (15, 18, 0)
+T1 = CUTTER/ BALL, 8, NUMBER, 1
+LOADTL/ T1
+SPINDL/ 8000, CLW
+FEDRAT/ 900, MMPM
+TOLER/ 0.004
+CLEARP/ 20
+FINISH = SURFAC/ N1, ZIGZAG, WAY, CUSP, 0.04
+FINI
+";
+
+fn roof(way: &str) -> Build {
+    let files = MemoryFiles(BTreeMap::from([("a.apt".to_owned(), ROOF.replace("WAY", way))]));
+    build("a.apt", &files, &Options { posts: vec!["linuxcnc".to_owned()], ..Options::default() })
+}
+
+#[test]
+fn passes_lie_closer_only_where_that_is_asked_for() {
+    let ir = roof("U").ir.expect("a program");
+    let passes = |asked: &[(usize, Place)], everywhere: bool| {
+        let (mut closer, mut sink) = (Closer::default(), Sink::default());
+        closer.add(asked, everywhere);
+        let cl = plan::plan_closer(&ir, &closer, &mut sink).expect("CL data");
+        cl.records.iter().filter(|r| matches!(r.kind, crate::cl::RecordKind::Pass(_))).count()
+    };
+    let place = Place { at: crate::geom::Point3::new(7.0, 3.0, 2.0), reach: 2.0, share: 0.25 };
+    let (before, near, all) = (passes(&[], false), passes(&[(0, place)], false), passes(&[(0, place)], true));
+    assert!(before < near && near < all && all < 3 * before, "{before} {near} {all}");
+    assert_eq!(before, passes(&[(1, place)], true));
+}

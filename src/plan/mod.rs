@@ -5,6 +5,7 @@
 //! about words or names.
 
 mod checks;
+pub mod closer;
 mod holes;
 mod levels;
 mod profile;
@@ -22,11 +23,17 @@ use crate::cl::{Cl, RecordKind};
 use crate::diag::{Diagnostic, Sink};
 use crate::ir::{Origin, Program, Step, StepKind};
 use crate::source::Span;
+use closer::Closer;
 use state::State;
 
 /// Cutter location data of a program; `None` after an error.
 pub fn plan(program: &Program, sink: &mut Sink) -> Option<Cl> {
-    let mut planner = Planner::new(program);
+    plan_closer(program, &Closer::default(), sink)
+}
+
+/// The same, with passes that lie closer at some places.
+pub fn plan_closer(program: &Program, closer: &Closer, sink: &mut Sink) -> Option<Cl> {
+    let mut planner = Planner::new(program, closer);
     for step in &program.steps {
         planner.step(step);
     }
@@ -38,13 +45,14 @@ pub fn plan(program: &Program, sink: &mut Sink) -> Option<Cl> {
 /// What the planning of one program carries along.
 struct Planner<'a> {
     program: &'a Program,
+    closer: &'a Closer,
     cl: Cl,
     state: State,
     sink: Sink,
 }
 
 impl<'a> Planner<'a> {
-    fn new(program: &'a Program) -> Planner<'a> {
+    fn new(program: &'a Program, closer: &'a Closer) -> Planner<'a> {
         let cl = Cl {
             title: program.title.clone(),
             units: program.units,
@@ -53,7 +61,7 @@ impl<'a> Planner<'a> {
             operations: Vec::new(),
             records: Vec::new(),
         };
-        Planner { program, cl, state: State::default(), sink: Sink::default() }
+        Planner { program, closer, cl, state: State::default(), sink: Sink::default() }
     }
 
     fn step(&mut self, step: &Step) {

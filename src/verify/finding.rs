@@ -10,6 +10,7 @@ use crate::readback::Trace;
 use crate::target::TargetProgram;
 use crate::units::LengthUnit;
 
+use super::Shortfall;
 use super::plan::Lines;
 
 /// Findings of one code that are shown one by one; the rest are counted.
@@ -23,6 +24,8 @@ pub(super) struct Finding {
     block: Option<usize>,
     text: Text,
     notes: Vec<Text>,
+    /// Where passes that lie closer would help; all of it, where there are any.
+    short: Vec<Shortfall>,
 }
 
 /// A sentence whose lengths are printed in the program's unit when it is known.
@@ -89,11 +92,20 @@ fn decimals(value: f64, places: usize) -> String {
 
 impl Finding {
     pub(super) fn new(code: &'static Code, line: u32, block: Option<usize>, text: Text) -> Self {
-        Finding { code, line, block, text, notes: Vec::new() }
+        Finding { code, line, block, text, notes: Vec::new(), short: Vec::new() }
     }
     pub(super) fn note(mut self, text: Text) -> Self {
         self.notes.push(text);
         self
+    }
+    /// The same, where passes that lie closer would help.
+    pub(super) fn with_short(mut self, short: Vec<Shortfall>) -> Self {
+        self.short = short;
+        self
+    }
+    /// Where passes that lie closer would help.
+    pub(super) fn short(&self) -> &[Shortfall] {
+        &self.short
     }
     pub(super) fn line(&self) -> u32 {
         self.line

@@ -166,6 +166,19 @@ impl<'a> Case<'a> {
     }
 }
 
+/// A place of a surface where more is left than allowed, which passes that lie closer would mend.
+#[derive(Debug, Clone, Copy)]
+pub struct Shortfall {
+    /// Index of the operation.
+    pub operation: usize,
+    /// The worst place of its neighbourhood, mm.
+    pub at: crate::geom::Point3,
+    /// How far the neighbourhood reaches, mm.
+    pub reach: f64,
+    /// How high cusps may be there, as a share of what they were planned for.
+    pub share: f64,
+}
+
 /// Proves an emitted program, or says in coded diagnostics why it can't be written.
 pub fn prove(
     cl: &Cl,
@@ -174,6 +187,20 @@ pub fn prove(
     control: &str,
     sink: &mut Sink,
 ) -> Option<Proven> {
+    prove_or_tell(cl, target, emitted, control, sink).ok()
+}
+
+/// The same; where nothing is wrong but that passes lie too far apart, it says where.
+///
+/// # Errors
+/// The places where passes must lie closer; none where that would not do.
+pub fn prove_or_tell(
+    cl: &Cl,
+    target: &TargetProgram,
+    emitted: Emitted,
+    control: &str,
+    sink: &mut Sink,
+) -> Result<Proven, Vec<Shortfall>> {
     let lines = Lines::new(&emitted.lines);
     let plan = Plan {
         contexts: plan::contexts(target),
@@ -185,14 +212,17 @@ pub fn prove(
         Ok(judged) => judged,
         Err(unknown) => {
             finding::unknown_control(&unknown.to_string(), sink);
-            return None;
+            return Err(Vec::new());
         }
     };
     let mut reporter = Reporter::new(cl, target, sink);
-    for finding in blame(cl, target, &emitted, control, (&plan, judged.findings)) {
-        reporter.report(&finding);
+    let findings = blame(cl, target, &emitted, control, (&plan, judged.findings));
+    findings.iter().for_each(|finding| reporter.report(finding));
+    if reporter.finish() {
+        return Ok(Proven { text: emitted.text, certificate: judged.certificate });
     }
-    reporter.finish().then_some(Proven { text: emitted.text, certificate: judged.certificate })
+    let cured = findings.iter().all(|f| !f.short().is_empty());
+    Err(findings.iter().filter(|_| cured).flat_map(|f| f.short().iter().copied()).collect())
 }
 
 /// What was asked, which does not depend on the text.

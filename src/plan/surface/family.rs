@@ -9,6 +9,7 @@ use crate::geom::surface::{Contact, Cutter, Guide, SurfaceTree, Track, drop_ball
 use crate::geom::{Point2, Point3, Vec3};
 use crate::ir::{Along, Spacing, Surface};
 use crate::math::count;
+use crate::plan::closer::Shares;
 
 /// Passes with their room, each beside the next.
 type Chain = Vec<(Track, Vec<f64>)>;
@@ -34,6 +35,7 @@ pub(super) struct Family {
     /// Width of the band the path may lie in, mm.
     band: f64,
     kind: Kind,
+    shares: Arc<Shares>,
 }
 
 #[derive(Debug)]
@@ -73,7 +75,7 @@ const EDGE: u32 = 400;
 
 impl Family {
     /// The passes of an operation; those that bend as if they ran along u.
-    pub(super) fn new(surface: &Surface, tree: Arc<SurfaceTree>, radius: f64) -> Family {
+    pub(super) fn new(surface: &Surface, tree: Arc<SurfaceTree>, radius: f64, shares: Shares) -> Family {
         let ball = radius + surface.leave;
         let kind = match surface.along {
             Along::U | Along::IsoCusp | Along::Const => Kind::Parameter(0),
@@ -81,17 +83,24 @@ impl Family {
             Along::X => Kind::Line(Rim::new(0, &tree, ball)),
             Along::Y => Kind::Line(Rim::new(1, &tree, ball)),
         };
-        Family { tree, ball, leave: surface.leave, band: surface.band.into + surface.band.out, kind }
+        let band = surface.band.into + surface.band.out;
+        Family { tree, ball, leave: surface.leave, band, kind, shares: Arc::new(shares) }
     }
 
     /// The same surface with passes along u (0) or v (1).
     fn along_axis(&self, axis: usize) -> Family {
-        Family { tree: Arc::clone(&self.tree), kind: Kind::Parameter(axis), ..*self }
+        let (tree, shares) = (Arc::clone(&self.tree), Arc::clone(&self.shares));
+        Family { tree, shares, kind: Kind::Parameter(axis), ..*self }
     }
 
     /// Radius of the ball itself, mm.
     pub(super) fn radius(&self) -> f64 {
         self.ball - self.leave
+    }
+
+    /// The share of the height of cusps that may be used at a point of the surface.
+    pub(super) fn share(&self, p: Point3) -> f64 {
+        self.shares.share(p)
     }
 
     /// How far the path may be beside its pass, mm, where the surface has this normal: off the surface by the whole band, a

@@ -55,7 +55,10 @@ impl Planner<'_> {
                 let (hull, band) = lanes::within(&cutter, surface.leave, surface.band);
                 (lanes::legs(surface, &tree, hull, step), band)
             }
-            _ => (Family::new(surface, Arc::clone(&tree), radius).legs(surface), surface.band),
+            _ => {
+                let shares = self.closer.of(self.cl.operations.len());
+                (Family::new(surface, Arc::clone(&tree), radius, shares).legs(surface), surface.band)
+            }
         };
         let legs = match legs {
             Ok(legs) => legs,

@@ -130,6 +130,11 @@ impl Row {
         self.contacts.get(k).copied().flatten().map_or(0.0, |c| family.aside(c.normal))
     }
 
+    /// The share of the height of cusps that may be used beside the pass at a column.
+    fn share(&self, family: &Family, k: usize) -> f64 {
+        self.contacts.get(k).copied().flatten().map_or(1.0, |c| family.share(c.foot.point))
+    }
+
     /// The centre between columns.
     fn between(&self, s: f64) -> Option<Point3> {
         // s lies in 0..=COLUMNS - 1, and floats saturate.
@@ -190,7 +195,9 @@ fn chunk(
                 Target::Cusp(h) => {
                     let between = Between { family, rows, ends: (lines.0[k], lines.1[k]), k };
                     let flat = apart / (2.0 * (h * (2.0 * (family.ball - family.leave) - h)).max(0.0).sqrt());
-                    between.ridge(&mut hint).map_or(0.0, |root| (root / (AIM * h).sqrt()).min(CLOSEST * flat))
+                    let share = rows.0.share(family, k).min(rows.1.share(family, k));
+                    let whole = (AIM * share * h).sqrt();
+                    between.ridge(&mut hint).map_or(0.0, |root| (root / whole).min(CLOSEST * flat))
                 }
             };
             let aside = rows.0.aside(family, k).max(rows.1.aside(family, k));
@@ -258,7 +265,7 @@ impl Half<'_> {
                 let flat = apart / (h * (2.0 * radius - h)).max(0.0).sqrt();
                 let height = |centre| enters(q - centre, n, radius) - leave;
                 let root = self.row.least(k, &height).max(0.0).sqrt();
-                (root / (AIM_BORDER * h).sqrt()).min(CLOSEST * flat)
+                (root / (AIM_BORDER * self.family.share(q) * h).sqrt()).min(CLOSEST * flat)
             }
         };
         wider(used, aside, apart)

@@ -13,9 +13,10 @@ use super::moves::Worst;
 use super::tile::Tile;
 use crate::cl::{Finish, Operation};
 use crate::diag::codes::verification as codes;
+use crate::geom::Point3;
 use crate::geom::surface::Patch;
-use crate::verify::ACCURACY;
 use crate::verify::finding::{Finding, Text};
+use crate::verify::{ACCURACY, Shortfall};
 
 /// What was found.
 #[derive(Debug)]
@@ -39,7 +40,7 @@ const ENOUGH: f64 = 2.0;
 
 /// Checks the whole surface; findings are appended.
 pub(super) fn check(
-    operation: &Operation,
+    (index, operation): (usize, &Operation),
     finish: &Finish,
     passes: &[Swept],
     findings: &mut Vec<Finding>,
@@ -58,7 +59,7 @@ pub(super) fn check(
     }
     let found: Vec<Tile<'_>> = tiles.par_iter().map(|(patch, tile)| field.tile(*patch, *tile)).collect();
     let mut cover = Cover { left, bound: 0.0, cusp: None, unreachable: None };
-    for tile in found {
+    for tile in &found {
         cover.left.take(tile.left);
         cover.bound = cover.bound.max(tile.bound);
         if tile.unreachable.value > 0.0 {
@@ -69,12 +70,21 @@ pub(super) fn check(
         }
     }
     cover.bound = cover.bound.max(cover.left.value);
+    let short = || -> Vec<Shortfall> {
+        let limits = finish.cusp.zip(allowed);
+        let of_tile = |(tile, (patch, number)): (&Tile<'_>, &(usize, u32))| {
+            let (at, share) = tile.short(limits?)?;
+            let reach = field.reach(at, *patch, *number);
+            Some(Shortfall { operation: index, at, reach, share })
+        };
+        found.iter().zip(&tiles).filter_map(of_tile).collect()
+    };
     if let Some(allowed) = allowed.filter(|a| !(cover.bound <= *a)) {
-        findings.push(too_much(operation, &cover, allowed - ACCURACY));
+        findings.push(too_much(operation, &cover, allowed - ACCURACY).with_short(short()));
     }
     if let Some((cusp, h)) = cover.cusp.zip(finish.cusp).filter(|(c, h)| !(c.value <= h * (1.0 + CUSP_SLACK)))
     {
-        findings.push(too_high(operation, &cusp, h));
+        findings.push(too_high(operation, &cusp, h).with_short(short()));
     }
     cover
 }
@@ -89,6 +99,23 @@ fn most_convex(finish: &Finish) -> f64 {
     };
     patches.flat_map(|p| (0..(PLACES + 1) * (PLACES + 1)).map(move |k| at(p, k))).fold(0.0, f64::max)
 }
+
+impl Tile<'_> {
+    /// Where on this tile more is left than the height of cusps and the whole that is allowed, and by which share cusps must
+    /// be lower there.
+    fn short(&self, (h, allowed): (f64, f64)) -> Option<(Point3, f64)> {
+        let cusp = (self.cusp.value > h * (1.0 + CUSP_SLACK)).then(|| (self.cusp.at, h / self.cusp.value));
+        let at = if self.left.value > 0.0 { self.left.at } else { self.cusp.at };
+        let over = self.bound.max(self.left.value) - allowed;
+        let left = (over > 0.0).then(|| (at, (h - over) / h));
+        let (at, share) = cusp.into_iter().chain(left).min_by(|a, b| a.1.total_cmp(&b.1))?;
+        Some((at, (share * SURE).clamp(STEEPEST, 1.0)))
+    }
+}
+
+/// Cusps are asked to be lower by a little more than what was too much, and by no more than this at once.
+const SURE: f64 = 0.995;
+const STEEPEST: f64 = 0.5;
 
 /// Ridges may be higher than asked for by this share: the accuracy to which the path's own deviation beside them is told.
 const CUSP_SLACK: f64 = 0.005;

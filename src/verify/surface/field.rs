@@ -7,6 +7,7 @@ use super::buckets::Buckets;
 use super::capsule::{Capsule, Corner};
 use super::moves::Worst;
 use crate::cl::{Finish, Operation};
+use crate::geom::Point3;
 use crate::geom::surface::{Foot, SurfaceTree};
 
 /// Tiles of a patch in each direction, checked in parallel.
@@ -88,6 +89,16 @@ impl<'a> Field<'a> {
     /// How far beside a point a move may pass that leaves so much there, mm.
     fn beside(&self, most: f64, bulge: f64) -> f64 {
         (2.0 * self.radius * INTEREST * most * bulge).sqrt().min(self.radius)
+    }
+
+    /// How far a tile reaches about a point of it, and a little more than passes are apart, mm.
+    pub(super) fn reach(&self, at: Point3, patch: usize, tile: u32) -> f64 {
+        let whole = &self.tree.net().patches()[patch];
+        let place = |k: u32| f64::from(k) / f64::from(TILES);
+        let (u, v) = (tile / TILES, tile % TILES);
+        let corners = [(u, v), (u + 1, v), (u, v + 1), (u + 1, v + 1)];
+        let far = corners.map(|(u, v)| (whole.jet(place(u), place(v)).p - at).norm());
+        far.into_iter().fold(0.0, f64::max) + 2.0 * self.around
     }
 
     /// The most that is left at a few places of a tile.

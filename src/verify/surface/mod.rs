@@ -73,7 +73,7 @@ pub(super) fn all(case: &Case<'_>) -> (Vec<Finding>, Vec<Proof>) {
             }
             None => {
                 let cover = if finish.cutter.is_ball() {
-                    cover::check(operation, finish, &swept.passes, &mut findings)
+                    cover::check((index, operation), finish, &swept.passes, &mut findings)
                 } else {
                     remains::check(finish, &swept.passes)
                 };

@@ -1,0 +1,94 @@
+//! Where passes must lie closer than the target alone asks for, because the proof found that too much was left.
+//!
+//! Passes are spread on their exact tracks; the blocks that express them deviate, and ridges are measured at columns only.
+//! What that takes is a constant margin nearly everywhere; where it is not enough, the plan is made again with these places.
+
+use crate::geom::Point3;
+
+/// Beyond this many times a place's reach nothing is changed; in between the share grows evenly.
+const FADES: f64 = 2.0;
+/// Shares are not taken below this.
+const LEAST: f64 = 0.05;
+
+/// A place where cusps must be lower.
+#[derive(Debug, Clone, Copy)]
+pub struct Place {
+    /// Where, on the surface.
+    pub at: Point3,
+    /// So far around it, mm.
+    pub reach: f64,
+    /// The height of cusps there, as a share of the height asked for.
+    pub share: f64,
+}
+
+/// Such places, operation by operation.
+#[derive(Debug, Clone, Default)]
+pub struct Closer {
+    places: Vec<(usize, Place)>,
+}
+
+impl Closer {
+    /// Asks for lower cusps in an operation (by its index) at some places: `share` counts on top of what was asked before.
+    /// `everywhere`: all over the operation's surface, by the least of the shares.
+    pub fn add(&mut self, short: &[(usize, Place)], everywhere: bool) {
+        let asked: Vec<(usize, Place)> = short
+            .iter()
+            .map(|(operation, place)| {
+                let share = (place.share * self.of(*operation).share(place.at)).max(LEAST);
+                let reach = if everywhere { f64::INFINITY } else { place.reach };
+                (*operation, Place { reach, share, ..*place })
+            })
+            .collect();
+        self.places.extend(asked);
+    }
+
+    /// The places of one operation.
+    pub(super) fn of(&self, operation: usize) -> Shares {
+        Shares(self.places.iter().filter(|(o, _)| *o == operation).map(|(_, p)| *p).collect())
+    }
+}
+
+/// The places of one operation.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Shares(Vec<Place>);
+
+impl Shares {
+    /// The share of the height of cusps that may be used at a point.
+    pub(super) fn share(&self, p: Point3) -> f64 {
+        self.0.iter().map(|place| place.share_at(p)).fold(1.0, f64::min)
+    }
+}
+
+impl Place {
+    fn share_at(&self, p: Point3) -> f64 {
+        let far = if self.reach.is_finite() { (p - self.at).norm() / self.reach.max(1e-9) } else { 0.0 };
+        let faded = ((far - 1.0) / (FADES - 1.0)).clamp(0.0, 1.0);
+        self.share + (1.0 - self.share) * faded
+    }
+}
+
+/// Rounds of planning at most, the first included …
+pub const ROUNDS: usize = 6;
+/// … of which the last ones lower cusps all over the surface.
+pub const EVERYWHERE: usize = 4;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shares_count_on_top_of_each_other_and_fade() {
+        let at = Point3::new(1.0, 2.0, 3.0);
+        let mut closer = Closer::default();
+        let asked = [(1, Place { at, reach: 2.0, share: 0.9 })];
+        closer.add(&asked, false);
+        closer.add(&asked, false);
+        assert_eq!(closer.of(0).share(at), 1.0);
+        let own = closer.of(1);
+        assert!((own.share(at) - 0.81).abs() < 1e-12);
+        assert!((own.share(Point3::new(4.0, 2.0, 3.0)) - 0.905).abs() < 1e-12);
+        assert_eq!(own.share(Point3::new(6.0, 2.0, 3.0)), 1.0);
+        closer.add(&asked, true);
+        assert!(closer.of(1).share(Point3::new(1e3, 0.0, 0.0)) < 0.8);
+    }
+}
