@@ -71,7 +71,7 @@ fn a_net_that_is_turned_by_a_right_angle_gives_the_path_turned() {
     near(here.iter().map(|p| [-p[1], p[0], p[2]]), &there);
 }
 
-/// Two planes that meet in a ridge across the passes' distance, so that no pass need lie on it.
+/// Two planes that meet in a ridge.
 const ROOF: &str = "\
 UNITS/ MM
 N1 = NET/ 4, 7, (0, 0, 0), (0, 3, 2), (0, 6, 4), (0, 9, 6), (0, 12, 4), (0, 15, 2), (0, 18, 0), $
@@ -91,6 +91,15 @@ FINI
 fn roof(way: &str) -> Build {
     let files = MemoryFiles(BTreeMap::from([("a.apt".to_owned(), ROOF.replace("WAY", way))]));
     build("a.apt", &files, &Options { posts: vec!["linuxcnc".to_owned()], ..Options::default() })
+}
+
+#[test]
+fn every_way_of_passes_goes_over_a_ridge() {
+    for way in ["U", "V", "X", "Y", "ISOCSP", "CONST"] {
+        let build = roof(way);
+        assert!(!build.has_errors(), "{way}: {:?}", build.diagnostics);
+        assert!(build.outputs[0].proven.is_some(), "{way}");
+    }
 }
 
 #[test]

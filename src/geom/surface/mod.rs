@@ -3,6 +3,7 @@
 //! Sign convention: the unit normal n points to the tool (n·z > 0 where the surface is a graph) and a
 //! normal curvature is positive where the surface is **concave**, that is, curves towards the tool.
 
+mod crease;
 pub mod curvature;
 pub mod cutter;
 pub mod drop;

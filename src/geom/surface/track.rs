@@ -84,13 +84,12 @@ impl Track {
     }
 
     /// The ball set on the surface at net parameters, lifted if it would gouge.
-    fn over(&self, [u, v]: [f64; 2]) -> Option<Contact> {
-        let net = self.tree.net();
-        let (patch, s, t) = net.place(u, v);
-        let jet = net.patches()[patch].jet(s, t);
-        let normal = jet.normal().filter(|n| n.z > 1e-6)?;
-        let centre = jet.p + normal * self.radius;
-        let own = Foot { patch, uv: [s, t], point: jet.p, distance: self.radius, certain: self.radius };
+    fn over(&self, uv: [f64; 2]) -> Option<Contact> {
+        let stand = self.tree.creases().stand(self.tree.net(), uv).filter(|s| s.normal.z > 1e-6)?;
+        let normal = stand.normal;
+        let centre = stand.point + normal * self.radius;
+        let (distance, certain) = (self.radius, self.radius);
+        let own = Foot { patch: stand.patch, uv: stand.uv, point: stand.point, distance, certain };
         let nearest = self.tree.nearest(centre, Some(&own));
         if nearest.distance >= self.radius - TOUCHES {
             return Some(Contact { centre, normal, foot: own });

@@ -15,6 +15,7 @@ mod slide;
 
 use core::cell::RefCell;
 
+use super::crease::Creases;
 use super::curvature::{Derivatives, hulls};
 use super::interval::Interval;
 use super::net::Net;
@@ -49,6 +50,7 @@ pub struct SurfaceTree {
     sure: Vec<(usize, Area)>,
     reach: f64,
     upright: bool,
+    creases: Creases,
     /// Bounds of |r_uu|, |r_uv|, |r_vv| over each patch.
     swings: Vec<[f64; 3]>,
 }
@@ -185,12 +187,18 @@ impl SurfaceTree {
         let derivatives: Vec<Derivatives> = net.patches().iter().map(Derivatives::new).collect();
         let swings = derivatives.iter().map(slide::swings).collect();
         let (nodes, leaves, sure) = (Vec::new(), Vec::new(), Vec::new());
-        let mut tree = SurfaceTree { net, derivatives, nodes, leaves, sure, reach, upright: true, swings };
+        let creases = Creases::new(&net);
+        let mut tree =
+            SurfaceTree { net, derivatives, nodes, leaves, sure, reach, upright: true, creases, swings };
         let [rows, columns] = tree.net.size();
         tree.nodes.push(EMPTY);
         let root = tree.block((0, rows), (0, columns), reach);
         tree.nodes[0] = root;
         tree
+    }
+    /// Where the patches of the net meet at an angle.
+    pub(super) fn creases(&self) -> &Creases {
+        &self.creases
     }
     /// The net.
     #[must_use]

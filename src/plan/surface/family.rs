@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use rayon::prelude::*;
+
 use super::march;
 use super::ridge::Target;
 use super::spread::{self, COLUMNS, Line};
@@ -191,45 +193,73 @@ impl Family {
         Track { tree: Arc::clone(&self.tree), radius, cutter, guide }
     }
 
-    /// The track of pass `k` of those at `places`; `None` where the line meets no surface. A plan pass goes on, around
-    /// the surface's edge, as far as its neighbours do: beside their ends nothing else cuts the edge.
-    fn pass(&self, places: &[f64], k: usize) -> Option<Track> {
-        let across = *places.get(k)?;
-        let (mut a, mut b) = self.along(across)?;
+    /// The track of pass `k` of those at `places`; none where the line meets no surface, several where it leaves it in
+    /// between. A plan pass goes on, around the surface's edge, as far as its neighbours do: beside their ends nothing else
+    /// cuts the edge.
+    fn pass(&self, places: &[f64], k: usize) -> Vec<Track> {
+        let Some(across) = places.get(k).copied() else { return Vec::new() };
+        let Some((mut a, mut b)) = self.along(across) else { return Vec::new() };
         for near in [k.checked_sub(1), Some(k + 1)].into_iter().flatten() {
             if let Some((c, d)) = places.get(near).and_then(|w| self.along(*w)) {
                 (a, b) = (a.min(c), b.max(d));
             }
         }
-        Some(match &self.kind {
-            Kind::Parameter(axis) => self.parameter_track(*axis, across, (a, b)),
-            Kind::Line(Rim { axis: 0, .. }) => self.line(Point2::new(a, across), Point2::new(b, across))?,
-            Kind::Line(..) => self.line(Point2::new(across, a), Point2::new(across, b))?,
-        })
+        match &self.kind {
+            Kind::Parameter(axis) => vec![self.parameter_track(*axis, across, (a, b))],
+            Kind::Line(Rim { axis: 0, .. }) => self.lines(Point2::new(a, across), Point2::new(b, across)),
+            Kind::Line(..) => self.lines(Point2::new(across, a), Point2::new(across, b)),
+        }
     }
 
-    /// A plan line, cut back to where the ball touches at both ends.
-    fn line(&self, mut from: Point2, mut to: Point2) -> Option<Track> {
-        const TRIES: u32 = 40;
-        for _ in 0..TRIES {
-            let length = (to - from).norm();
-            if length.is_nan() || length <= 1e-3 {
-                return None;
-            }
-            let touches = |p: Point2| drop_ball(&self.tree, self.ball, p.x, p.y, None).is_some();
-            let (a, b) = (touches(from), touches(to));
-            if a && b {
-                return Some(self.track(Guide::Line { from, to }));
-            }
-            let step = (to - from) / length * (BEYOND.min(0.1 * length));
-            if !a {
-                from += step;
-            }
-            if !b {
-                to -= step;
-            }
+    /// A plan line, cut to where the ball rests.
+    fn lines(&self, from: Point2, to: Point2) -> Vec<Track> {
+        const CLOSE: f64 = 1e-3;
+        let length = (to - from).norm();
+        if length.is_nan() || length <= CLOSE {
+            return Vec::new();
         }
-        None
+        let held = self.held(from, to);
+        let parts = held.len() - 1;
+        let at = |share: f64| from + (to - from) * share;
+        let place = |k: usize| count(k) / count(parts);
+        // Where the ball begins to rest between a place where it does not and one where it does.
+        let edge = |mut off: f64, mut on: f64| {
+            while (on - off).abs() * length > CLOSE {
+                let middle = 0.5 * (off + on);
+                *(if self.rests(at(middle), None).is_some() { &mut on } else { &mut off }) = middle;
+            }
+            on
+        };
+        let mut out = Vec::new();
+        let mut k = 0;
+        while k <= parts {
+            let end = (k..=parts).find(|i| !held[*i]).unwrap_or(parts + 1);
+            if end > k + 1 {
+                let start = if k == 0 { 0.0 } else { edge(place(k - 1), place(k)) };
+                let stop = if end > parts { 1.0 } else { edge(place(end), place(end - 1)) };
+                out.push(self.track(Guide::Line { from: at(start), to: at(stop) }));
+            }
+            k = end + 1;
+        }
+        out
+    }
+
+    /// Whether the ball rests, at equal distances along a plan line.
+    fn held(&self, from: Point2, to: Point2) -> Vec<bool> {
+        const APART: f64 = 0.25;
+        let parts = ((to - from).norm() / (APART * self.ball)).clamp(32.0, 1024.0).ceil() as usize;
+        let mut hint: Option<Contact> = None;
+        let at = |k: usize| {
+            hint = self.rests(from + (to - from) * (count(k) / count(parts)), hint.as_ref());
+            hint.is_some()
+        };
+        (0..=parts).map(at).collect()
+    }
+
+    /// Where the ball rests over a place; `None` also where it would hang at the side of the surface.
+    fn rests(&self, p: Point2, hint: Option<&Contact>) -> Option<Contact> {
+        const HANGING: f64 = 0.01;
+        drop_ball(&self.tree, self.ball, p.x, p.y, hint).filter(|c| c.normal.z > HANGING)
     }
 
     /// The way from the end of one pass to the start of the next, along the surface.
@@ -246,9 +276,11 @@ impl Family {
                 ((ends[1] - ends[0]).norm() <= LINK * self.ball)
                     .then(|| self.track(Guide::Curve(Arc::new(way.to_vec()))))
             }
-            (Guide::Line { to: end, .. }, Guide::Line { from: start, .. }) => {
-                Some(self.track(Guide::Line { from: *end, to: *start }))
-            }
+            (Guide::Line { to: end, .. }, Guide::Line { from: start, .. }) => self
+                .held(*end, *start)
+                .iter()
+                .all(|held| *held)
+                .then(|| self.track(Guide::Line { from: *end, to: *start })),
             _ => None,
         }
     }
@@ -263,19 +295,19 @@ impl Family {
                 let room = rooms[s.line][s.from..=s.to].to_vec();
                 (family.bent(&spread.lines[s.line], s), room)
             };
-            return Ok(stretches(&spread.lines)
+            return Ok(stretches(spread.lines.iter().enumerate().map(|(k, l)| runs(k, l)).collect())
                 .iter()
                 .map(|chain| chain.iter().map(leg).collect())
                 .collect());
         }
         let spread = spread::spread(self, target)?;
         let places: Vec<f64> = spread.lines.iter().map(|line| line[0]).collect();
+        let tracks: Vec<Vec<Track>> =
+            (0..places.len()).into_par_iter().map(|k| self.pass(&places, k)).collect();
         if self.is_plane() {
-            let passes = (0..places.len()).filter_map(|k| Some((self.pass(&places, k)?, Vec::new())));
-            return Ok(vec![passes.collect()]);
+            return Ok(beside(tracks));
         }
-        let tracks = (0..places.len()).filter_map(|k| self.pass(&places, k));
-        Ok(vec![tracks.zip(spread.rooms(target, false)).collect()])
+        Ok(vec![tracks.into_iter().flatten().zip(spread.rooms(target, false)).collect()])
     }
 
     /// A pass along a stretch of a curve in the parameters.
@@ -331,9 +363,34 @@ struct Stretch {
     to: usize,
 }
 
-/// The stretches where passes run, in chains of such that lie beside one another.
-fn stretches(lines: &[Line]) -> Vec<Vec<Stretch>> {
-    let mut open: Vec<Vec<Stretch>> = lines.iter().enumerate().map(|(line, l)| runs(line, l)).collect();
+/// Plan passes, line by line, in chains of such that lie beside one another.
+fn beside(lines: Vec<Vec<Track>>) -> Vec<Chain> {
+    /// Stretches are compared to so many parts of a millimetre.
+    const PARTS: f64 = 1e3;
+    let ends = |track: &Track| match &track.guide {
+        Guide::Line { from, to } if from.y == to.y => (from.x, to.x),
+        Guide::Line { from, to } => (from.y, to.y),
+        _ => (0.0, 0.0),
+    };
+    let least = range(lines.iter().flatten().map(|track| ends(track).0)).0;
+    // Floats saturate.
+    let place = |x: f64| ((x - least) * PARTS).max(0.0) as usize;
+    let open = lines.iter().enumerate().map(|(line, tracks)| {
+        let stretch = |track: &Track| {
+            let (from, to) = ends(track);
+            Stretch { line, from: place(from), to: place(to) }
+        };
+        tracks.iter().rev().map(stretch).collect()
+    });
+    let track = |s: &Stretch| {
+        let own = lines.get(s.line).and_then(|tracks| tracks.iter().find(|t| place(ends(t).0) == s.from));
+        own.map(|track| (track.clone(), Vec::new()))
+    };
+    stretches(open.collect()).iter().map(|chain| chain.iter().filter_map(track).collect()).collect()
+}
+
+/// Stretches, line by line and the last of each first, in chains of such that lie beside one another.
+fn stretches(mut open: Vec<Vec<Stretch>>) -> Vec<Vec<Stretch>> {
     let mut chains = Vec::new();
     for first in 0..open.len() {
         while let Some(start) = open[first].pop() {
