@@ -4,6 +4,7 @@
 //! bend, [`entry`] how the cutter comes onto the surface. Passes stay exact tracks: `lower` fits them.
 
 mod entry;
+mod extent;
 mod family;
 mod lanes;
 mod march;
@@ -38,6 +39,10 @@ impl Planner<'_> {
         // Tools of another shape were refused with the statement.
         let radius = tool.diameter / 2.0;
         let cutter = tool.solid().unwrap_or_else(|| Cutter::ball(radius));
+        let net = &self.program.nets[surface.net].net;
+        if let Some(why) = extent::refused(net, surface.spacing, radius, self.program.units) {
+            return self.no_passes(&why, origin);
+        }
         let reach = radius + surface.leave + surface.band.out;
         let tree = Arc::new(SurfaceTree::new(entity.net.clone(), reach));
         let reachable = self.upright((surface.net, &tree), origin);
