@@ -24,7 +24,7 @@ const LONGEST_DWELL: f64 = 99_999.0;
 
 /// Where the tool goes after a hole.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Return {
+pub(super) enum Return {
     /// To the clearance level.
     Clearance,
     /// To where it was when the cycle began.
@@ -34,6 +34,16 @@ enum Return {
 }
 
 impl Asked {
+    /// A cycle with its feed.
+    pub(super) fn new(cycle: Cycle, return_to: Return) -> Asked {
+        Asked { cycle, return_to, own_feed: true, open: None }
+    }
+
+    /// Depth below the hole's point, mm.
+    pub(super) fn depth(&self) -> f64 {
+        self.cycle.depth
+    }
+
     /// Height of the tool after a hole on a surface at `z`, mm, coming from `at`.
     fn level(&self, z: f64, at: Option<Point3>) -> f64 {
         let clearance = z + self.cycle.clearance;
@@ -219,6 +229,15 @@ impl Reader<'_> {
             return Err(format!("a dwell of {seconds} s is not between 0 and {LONGEST_DWELL}"));
         }
         Ok(Some(seconds).filter(|s| *s > 0.0))
+    }
+
+    /// The cycle of the next hole: goes on where it is the same.
+    pub(super) fn ask(&mut self, asked: Asked) {
+        let same = |old: &Asked| old.cycle == asked.cycle && old.return_to == asked.return_to;
+        if !self.state.cycle.as_ref().is_some_and(same) {
+            self.leave_cycle();
+            self.state.cycle = Some(asked);
+        }
     }
 
     /// A point while a cycle is in force.

@@ -20,6 +20,7 @@ mod grammar;
 pub mod lines;
 mod motion;
 mod nci;
+mod nci_drill;
 mod nurbs;
 mod process;
 mod producer;

@@ -1,7 +1,7 @@
 //! Mastercam's NCI: pairs of lines, a code and its numbers.
 //!
-//! Codes and counts are known from descriptions; no file of the system itself was at hand. Drilling records are refused:
-//! the order of their 19 numbers is not known well enough to drill by.
+//! Codes and the order of their numbers are known from descriptions and from how PostWorks reads them; no file of the
+//! system itself was at hand. Drilling is [`super::nci_drill`].
 
 use super::reader::Reader;
 use super::scan;
@@ -10,9 +10,13 @@ use crate::diag::codes::foreign as codes;
 use crate::geom::{Point3, Vec3};
 use crate::ir::Coolant;
 
+/// A turn of the tool plane that is none.
+const NO_TURN: f64 = 1e-9;
+/// Characters of a bad number that a message shows.
+const LONGEST_SAID: usize = 24;
 /// Codes that do nothing a program must say.
 const HARMLESS: &[i64] = &[
-    1000, 1001, 1004, 1009, 1010, 1011, 1012, 1013, 1014, 1016, 1017, 1018, 1019, 1020, 1025, 1026, 1027,
+    1000, 1001, 1004, 1009, 1010, 1011, 1012, 1013, 1016, 1017, 1018, 1019, 1020, 1025, 1026, 1027,
     1050, 20000, 20001, 20002, 20003, 20004, 20005, 20006, 20007, 20008, 20009, 20010, 20100, 2,
 ];
 
@@ -40,43 +44,74 @@ impl<'t> Reader<'t> {
             }
             return;
         }
-        let numbers: Option<Vec<f64>> = text.split_whitespace().map(scan::number).collect();
-        let numbers = numbers.unwrap_or_default();
-        match code {
-            0 | 1 => self.nci_line(code, &numbers),
-            2 | 3 => self.nci_arc(code, &numbers),
-            4 => self.nci_dwell(&numbers),
-            11 => self.nci_axis(&numbers),
-            1002 => self.nci_tool(&numbers),
-            1003 => self.state.ended = true,
-            80 => {}
-            // Further holes of a cycle that was refused.
-            100 | 101 => {}
-            81..=89 => {
-                let message = format!(
-                    "the drilling record {code} of NCI is not read: the order of its numbers is not known"
-                );
-                self.soften(&codes::NOT_CARRIED_OUT, message, Some("write drilling as moves".to_owned()));
+        if HARMLESS.contains(&code) {
+            return;
+        }
+        match text.split_whitespace().map(|t| scan::number(t).ok_or(t)).collect::<Result<Vec<f64>, _>>() {
+            Ok(numbers) => self.nci_record(code, &numbers),
+            Err(text) => {
+                let text: String = text.chars().take(LONGEST_SAID).collect();
+                self.complain(&codes::BAD_RECORD, format!("the record {code} has `{text}` for a number"));
             }
-            _ if HARMLESS.contains(&code) => {}
+        }
+    }
+
+    fn nci_record(&mut self, code: i64, numbers: &[f64]) {
+        if !matches!(code, 81 | 100) {
+            self.leave_cycle();
+        }
+        match code {
+            0 | 1 => self.nci_line(code, numbers),
+            2 | 3 => self.nci_arc(code, numbers),
+            4 => self.nci_dwell(numbers),
+            11 => self.nci_axis(numbers),
+            80 => {}
+            81 => self.nci_first_hole(numbers),
+            100 => self.nci_next_hole(numbers),
+            1002 => self.nci_tool(numbers),
+            1003 => self.state.ended = true,
+            1014 => self.nci_plane(numbers),
             _ => self.soften(&codes::UNKNOWN_RECORD, format!("the record {code} is not known"), None),
+        }
+    }
+
+    /// The matrix of the tool plane, row by row.
+    fn nci_plane(&mut self, n: &[f64]) {
+        let turned = n.iter().take(9).enumerate().any(|(k, v)| (v - f64::from(k % 4 == 0)).abs() > NO_TURN);
+        if turned && n.iter().any(|v| *v != 0.0) {
+            let message = "the record 1014 turns the tool plane, and the posts are for three axes".to_owned();
+            self.soften(&codes::NOT_CARRIED_OUT, message, None);
+        }
+    }
+
+    /// The control's compensation, which is a number of lines and arcs: without it the path is another one.
+    fn nci_compensated(&mut self, value: f64) {
+        if (value == 41.0 || value == 42.0) && !self.state.compensation_told {
+            self.state.compensation_told = true;
+            let message = "the control is to shift the path by the cutter's radius (41, 42): that is left to no control here";
+            let help = "let the CAM system compensate (compensation type: computer)";
+            self.soften(&codes::NOT_CARRIED_OUT, message.to_owned(), Some(help.to_owned()));
         }
     }
 
     /// Compensation, x, y, z, feed (-2: rapid), flags.
     fn nci_line(&mut self, code: i64, n: &[f64]) {
-        let [_, x, y, z, feed, ..] = *n else { return self.nci_short(code, 5, n.len()) };
+        let [compensation, x, y, z, feed, ..] = *n else { return self.nci_short(code, 5, n.len()) };
+        self.nci_compensated(compensation);
         if code == 0 || feed == -2.0 {
             self.state.rapid = true;
         } else if feed > 0.0 {
             self.set_feed_number(feed);
         }
-        self.goto(&[x, y, z, 0.0, 0.0, 0.0], 3);
+        self.goto(&[x, y, z, 0.0, 0.0, 1.0], 6);
     }
 
     /// Plane (0 XY, 1 YZ, 2 XZ), compensation, end, centre, feed, flags.
     fn nci_arc(&mut self, code: i64, n: &[f64]) {
-        let [plane, _, x, y, z, cx, cy, cz, feed, ..] = *n else { return self.nci_short(code, 9, n.len()) };
+        let [plane, compensation, x, y, z, cx, cy, cz, feed, ..] = *n else {
+            return self.nci_short(code, 9, n.len());
+        };
+        self.nci_compensated(compensation);
         if feed > 0.0 {
             self.set_feed_number(feed);
         }
@@ -132,7 +167,7 @@ impl<'t> Reader<'t> {
         }
     }
 
-    fn nci_short(&mut self, code: i64, wanted: usize, found: usize) {
+    pub(super) fn nci_short(&mut self, code: i64, wanted: usize, found: usize) {
         self.complain(
             &codes::BAD_RECORD,
             format!("the record {code} takes {wanted} numbers or more, not {found}"),

@@ -61,6 +61,8 @@ pub(super) struct State {
     pub ended: bool,
     /// First line of a Mastercam pair.
     pub pair: Option<(i64, usize)>,
+    /// What a Mastercam cycle keeps from its first hole on.
+    pub drilling: Option<super::nci_drill::Drilling>,
 }
 
 impl State {
@@ -100,6 +102,7 @@ impl State {
             part_normal: None,
             ended: false,
             pair: None,
+            drilling: None,
         }
     }
 

@@ -1,7 +1,7 @@
 //! Every producer's forms, in files of our own.
 
 use super::{framed, kinds, read, read_as};
-use crate::cl::{Circle, Cl, RecordKind};
+use crate::cl::{Circle, Cl, Cycle, CycleKind, RecordKind, RetractTo};
 use crate::clfile::{Producer, recognise};
 use crate::geom::Point3;
 
@@ -161,6 +161,91 @@ fn mastercam_pairs() {
     assert_eq!(codes, [""; 0]);
     assert_eq!(kinds(&cl), "RLC");
     assert!(circles(&cl)[0].axis.z > 0.0);
-    let (_, codes) = read_as("81\n0 1 2 3\n", Some(Producer::Mastercam), false);
+}
+
+/// Tool 1 at 2000 rpm above the first hole.
+fn drilled(records: &str) -> (Cl, Vec<&'static str>) {
+    let text = format!("1002\n0 100 10 1 1 1 0 2000 300. 1\n0\n0 10. 0. 50. -2. 0\n{records}\n80\n0\n1003\n0\n");
+    read_as(&text, Some(Producer::Mastercam), false)
+}
+
+fn cycles(cl: &Cl) -> Vec<Cycle> {
+    let cycle = |r: &crate::cl::Record| match &r.kind {
+        RecordKind::BeginCycle(cycle) => Some(**cycle),
+        _ => None,
+    };
+    cl.records.iter().filter_map(cycle).collect()
+}
+
+#[test]
+fn mastercam_holes() {
+    let (cl, codes) = drilled(
+        "81\n1 10. 0. -18. 0. 120. 5. 4. 0.5 0.5 50. 3. 1. 0. 10. 0. 50. 0 0\n\
+         100\n0 20. 0. -18. 50. 3. 0. 120. 20. 0. 50. 0 0\n\
+         100\n0 30. 5. -23. 50. 3. 0. 120. 30. 5. 50. 0 0",
+    );
+    assert_eq!(codes, [""; 0]);
+    assert_eq!(kinds(&cl), "RBHHERBHE");
+    let all = cycles(&cl);
+    let first = all[0];
+    assert_eq!((first.kind, first.retract), (CycleKind::Deep, RetractTo::Initial));
+    assert_eq!((first.depth, first.clearance), (19.0, 2.0));
+    assert_eq!((first.peck, first.first_peck), (Some(4.0), Some(5.0)));
+    assert_eq!((all[1].depth, all[1].clearance, all.len()), (24.0, 2.0, 2));
+}
+
+#[test]
+fn mastercam_kinds_of_holes() {
+    let kind = |record: &str| {
+        let (cl, codes) = drilled(record);
+        cycles(&cl).first().map(|c| (c.kind, c.retract, c.dwell)).ok_or(codes)
+    };
+    let (low, at) = (RetractTo::Clearance, "50. 0 0");
+    let hole = |kind: u8, dwell: &str, peck: &str, shift: &str| {
+        format!("81\n{kind} 10. 0. -18. {dwell} 2500. {peck} 0. 0. 0. 50. 50. 0. {shift} 10. 0. {at}")
+    };
+    assert_eq!(kind(&hole(0, "0.", "0.", "0.")), Ok((CycleKind::Drill, low, None)));
+    assert_eq!(kind(&hole(0, "0.5", "0.", "0.")), Ok((CycleKind::Dwell, low, Some(0.5))));
+    assert_eq!(kind(&hole(2, "0.", "3.", "0.")), Ok((CycleKind::ChipBreak, low, None)));
+    assert_eq!(
+        kind(&hole(3, "0.", "0.", "0.")),
+        Ok((CycleKind::Tap { pitch: 1.25, left: false }, low, None))
+    );
+    assert_eq!(kind(&hole(4, "0.", "0.", "0.")), Ok((CycleKind::Bore, low, None)));
+    assert_eq!(kind(&hole(4, "1.", "0.", "0.")), Ok((CycleKind::BoreDwell, low, Some(1.0))));
+    assert_eq!(kind(&hole(5, "0.", "0.", "0.")), Ok((CycleKind::BoreStop, low, None)));
+    assert_eq!(kind(&hole(6, "0.", "0.", "0.2")), Ok((CycleKind::BoreOrient { shift: 0.2 }, low, None)));
+    for refused in [hole(1, "0.", "0.", "0."), hole(6, "0.", "0.", "0."), hole(7, "0.", "0.", "0.")] {
+        assert_eq!(kind(&refused), Err(vec!["E1006"]), "{refused}");
+    }
+    assert_eq!(kind("100\n0 20. 0. -18. 50. 3. 0. 120. 20. 0. 50. 0 0"), Err(vec!["E1006"]));
+    // the bottom above the stock, heights out of order, too few numbers
+    let heights = |z: &str, initial: &str, reference: &str| {
+        format!("81\n0 10. 0. {z} 0. 100. 0. 0. 0. 0. {initial} {reference} 1. 0. 10. 0. {initial} 0 0")
+    };
+    assert_eq!(kind(&heights("2.", "50.", "3.")), Err(vec!["E1006"]));
+    assert_eq!(kind(&heights("-9.", "50.", "0.")), Err(vec!["E1006"]));
+    assert_eq!(kind(&heights("-9.", "2.", "3.")), Err(vec!["E1006"]));
+    assert_eq!(kind("81\n0 10. 0."), Err(vec!["E1002"]));
+}
+
+#[test]
+fn mastercam_holes_off_z_and_turned_planes_are_refused() {
+    let (_, codes) = drilled("81\n0 10. 0. -18. 0. 120. 0. 0. 0. 0. 50. 3. 1. 0. 60. 0. -18. 0 0");
+    assert_eq!(codes, ["E1004"]);
+    let (_, codes) = drilled("1014\n1. 0. 0. 0. 0. 1. 0. -1. 0.");
     assert_eq!(codes, ["E1003"]);
+    let (_, codes) = drilled("1014\n1. 0. 0. 0. 1. 0. 0. 0. 1.");
+    assert_eq!(codes, [""; 0]);
+    // the control's compensation would move the path by the radius
+    let (_, codes) = drilled("1\n41 10. 0. -1. 100. 0\n1\n0 20. 0. -1. 100. 0");
+    assert_eq!(codes, ["E1003"]);
+    let (_, codes) = drilled("1\n0 10. zero -1. 100. 0");
+    assert_eq!(codes, ["E1002"]);
+}
+
+#[test]
+fn mastercam_swapped_ends_of_holes() {
+    let (cl, codes) = drilled("81\n0 10. 0. 50. 0. 120. 0. 0. 0. 0. 50. 3. 1. 0. 10. 0. -18. 0 1");
+    assert_eq!((cycles(&cl)[0].depth, codes), (19.0, vec![]));
 }

@@ -81,7 +81,7 @@ fn dense(curve: &dyn PlanarCurve, each: u32) -> Vec<Dense> {
 }
 
 /// The curve's nearest point among those about a dense point, by Newton's method held between its neighbours.
-fn nearest(p: Point2, curve: &dyn PlanarCurve, at: &Dense) -> Frenet {
+fn nearest(p: Point2, curve: &dyn PlanarCurve, at: &Dense) -> (f64, Frenet) {
     let (mut u, mut f) = (at.u, at.f);
     for _ in 0..4 {
         let w = p - f.p;
@@ -89,13 +89,14 @@ fn nearest(p: Point2, curve: &dyn PlanarCurve, at: &Dense) -> Frenet {
         u = u.clamp(at.between.0, at.between.1);
         f = curve.at_in(at.span, u);
     }
-    f
+    (u, f)
 }
 
 /// Signed distance of `p` from the curve, searched around index `near` (all of it when `wide`); updates `near`.
 fn distance(p: Point2, curve: &dyn PlanarCurve, points: &[Dense], near: &mut usize, wide: bool) -> f64 {
     let n = points.len();
-    let far = |k: usize| (p - points[k].f.p).norm();
+    // of the chord from a dense point to the next: at a sharp corner the nearest point may be one of the wrong side
+    let far = |k: usize| segment(p, points[k].f.p, points[if k + 1 < n { k + 1 } else { k }].f.p);
     let best_of = |reach: usize| {
         let around = (0..=2 * reach).map(|k| (*near + n * 2 + k - reach) % n);
         around.min_by(|a, b| far(*a).total_cmp(&far(*b))).unwrap_or(0)
@@ -109,23 +110,24 @@ fn distance(p: Point2, curve: &dyn PlanarCurve, points: &[Dense], near: &mut usi
     }
     *near = best;
     // the nearest point may lie on the span before or after a break
-    let at = &points[best];
-    let end = at.u == at.between.0 || at.u == at.between.1;
-    let around = [best, (best + 1) % n, (best + n - 1) % n];
-    let feet = around[..if end { 3 } else { 1 }].iter().map(|k| (nearest(p, curve, &points[*k]), points[*k]));
-    let (f, at) = feet.min_by(|a, b| (p - a.0.p).norm().total_cmp(&(p - b.0.p).norm())).unwrap();
+    let feet = [0, 1, 2, n - 1].map(|k| {
+        let at = &points[(best + k) % n];
+        let (u, f) = nearest(p, curve, at);
+        ((p - f.p).norm(), at.span, u, f)
+    });
+    let (_, span, u, f) = feet.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
     let (w, corner) = (p - f.p, (p - f.p).dot(&f.t).abs() > 1e-6);
     if !corner {
         return w.dot(&f.n());
     }
     let breaks = curve.breaks();
     let spans = breaks.len() - 1;
-    let (ends, starts) = (at.u >= breaks[at.span + 1] - 1e-9, at.u <= breaks[at.span] + 1e-9);
-    let last = at.span + 1 == spans && ends || at.span == 0 && starts;
+    let (ends, starts) = (u >= breaks[span + 1] - 1e-9, u <= breaks[span] + 1e-9);
+    let last = span + 1 == spans && ends || span == 0 && starts;
     if last && !curve.is_closed() {
         return w.dot(&f.n());
     }
-    let other = if ends { (at.span + 1) % spans } else { (at.span + spans - 1) % spans };
+    let other = if ends { (span + 1) % spans } else { (span + spans - 1) % spans };
     let n = f.n() + curve.at_in(other, if ends { breaks[other] } else { breaks[other + 1] }).n();
     w.norm() * w.dot(&n).signum()
 }

@@ -85,6 +85,16 @@ fn all_answered(polygon: &Polygon, band: (f64, f64)) {
     }
 }
 
+/// Turns and radii of the corners of a star, by the high bits of a linear congruential generator.
+fn random_offsets(seed: u32, corners: u32) -> Vec<(f64, f64)> {
+    let mut state = u64::from(seed);
+    let mut share = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        f64::from((state >> 33) as u32) / 2_147_483_648.0 - 0.5
+    };
+    (0..corners).map(|_| (0.6 * share(), share())).collect()
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 12, ..ProptestConfig::default() })]
 
@@ -96,12 +106,7 @@ proptest! {
         band in 0..BANDS.len(),
         closed in any::<bool>(),
     ) {
-        let mut state = u64::from(seed);
-        let mut share = || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            f64::from((state >> 33) as u32) / 2_147_483_648.0 - 0.5
-        };
-        let offsets: Vec<(f64, f64)> = (0..corners).map(|_| (0.6 * share(), share())).collect();
+        let offsets = random_offsets(seed, corners);
         all_answered(&star(&offsets, math::pow(10.0, rough), closed), BANDS[band]);
     }
 }
@@ -129,5 +134,14 @@ fn a_narrow_band_is_threaded_through_sharp_corners() {
         let fit = fitter(&tube, &grid(3), None).unwrap();
         check(&tube, &grid(3), &fit, 8);
         assert!(fit.primitives.len() as f64 <= 1.1 * f64::from(fit.lower_bound.unwrap()));
+    }
+}
+
+/// Sides that stand at such angles to one another that a point of the path is nearer to the ends of the wrong one.
+#[test]
+fn corners_that_are_acute_are_passed_on_the_right_side() {
+    let offsets = random_offsets(898_559_402, 383);
+    for closed in [true, false] {
+        all_answered(&star(&offsets, 1.25595, closed), BANDS[1]);
     }
 }
