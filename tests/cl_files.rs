@@ -11,6 +11,7 @@ use common::Directory;
 use partwright::diag::Severity;
 use partwright::driver::{self, Build, Options};
 use partwright::source::MemoryFiles;
+use rayon::prelude::*;
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cl")
@@ -50,6 +51,17 @@ fn every_file_posts_and_its_programs_are_as_reviewed() {
         }
         insta::assert_snapshot!(name.replace('.', "_"), text);
     }
+}
+
+/// Workers of the pool that all wait for a proof would wait for ever.
+#[test]
+fn many_files_are_posted_at_once() {
+    let posted = (0..32).into_par_iter().map(|_| {
+        let posts = ["linuxcnc", "fanuc", "heidenhain"];
+        let build = driver::build("nx_pocket.cls", &Directory(folder()), &options(&posts, true));
+        build.outputs.iter().filter(|o| o.proven.is_some()).count()
+    });
+    assert_eq!(posted.sum::<usize>(), 3 * 32);
 }
 
 #[test]

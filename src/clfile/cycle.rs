@@ -19,6 +19,8 @@ pub(super) struct Asked {
     open: Option<f64>,
 }
 
+/// Least depth of a hole or a peck, mm.
+const LEAST_DEPTH: f64 = 0.001;
 /// Longest dwell of a cycle, s.
 const LONGEST_DWELL: f64 = 99_999.0;
 
@@ -34,9 +36,21 @@ pub(super) enum Return {
 }
 
 impl Asked {
-    /// A cycle with its feed.
-    pub(super) fn new(cycle: Cycle, return_to: Return) -> Asked {
-        Asked { cycle, return_to, own_feed: true, open: None }
+    /// A cycle with its feed; no peck is deeper than the hole.
+    ///
+    /// # Errors
+    /// When depth or pecks are too small to be meant.
+    pub(super) fn new(cycle: Cycle, return_to: Return) -> Result<Asked, String> {
+        let depth = cycle.depth;
+        if depth.is_nan() || depth < LEAST_DEPTH {
+            return Err("the cycle's depth is 0: it would drill nothing".to_owned());
+        }
+        let within = |peck: Option<f64>| peck.map(|p| p.min(depth));
+        let (peck, first_peck) = (within(cycle.peck), within(cycle.first_peck));
+        if peck.into_iter().chain(first_peck).any(|p| p < LEAST_DEPTH) {
+            return Err(format!("the cycle's pecks are less than {LEAST_DEPTH} mm deep"));
+        }
+        Ok(Asked { cycle: Cycle { peck, first_peck, ..cycle }, return_to, own_feed: true, open: None })
     }
 
     /// Depth below the hole's point, mm.
@@ -125,9 +139,6 @@ impl Reader<'_> {
         let bare = bare_numbers(s);
         let depth = value(DEPTH).or_else(|| bare.first().map(|v| v * scale)).map(f64::abs);
         let depth = depth.ok_or("the cycle has no depth: FEDTO or DEPTH")?;
-        if depth.is_nan() || depth <= 0.0 {
-            return Err("the cycle's depth is 0: it would drill nothing".to_owned());
-        }
         let spare = if value(DEPTH).is_some() { 0 } else { 1 };
         let last = bare.get(spare..).and_then(<[f64]>::last).map(|v| v * scale);
         let clearance = value(CLEARANCE).or(last).filter(|c| *c >= 0.0);
@@ -149,7 +160,7 @@ impl Reader<'_> {
         let retract = if return_to == Return::Clearance { RetractTo::Clearance } else { RetractTo::Initial };
         let feed = feed.unwrap_or(Feed::PerMinute(0.0));
         let cycle = Cycle { kind, depth, clearance, retract, peck, first_peck, dwell, feed };
-        Ok(Asked { cycle, return_to, own_feed, open: None })
+        Ok(Asked { own_feed, ..Asked::new(cycle, return_to)? })
     }
 
     /// A word that nobody knows may change the hole.

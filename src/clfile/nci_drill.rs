@@ -117,7 +117,7 @@ impl Reader<'_> {
             false => (RetractTo::Clearance, Return::Clearance),
         };
         let cycle = Cycle { kind, depth, clearance, retract, peck, first_peck, dwell, feed };
-        Ok(Asked::new(cycle, return_to))
+        Asked::new(cycle, return_to)
     }
 
     fn nci_kind(&self, drilling: &Drilling, dwell: bool, pecks: bool, feed: Feed) -> Result<CycleKind, String> {

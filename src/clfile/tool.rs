@@ -14,6 +14,8 @@ pub(super) struct Data {
     /// d, r, e, f, α, β, h as written: lengths in mm, angles in radians.
     cutter: [f64; 7],
     stated: bool,
+    /// It is a drill.
+    drill: bool,
     /// It was stated for a tool that has not been changed in yet.
     fresh: bool,
 }
@@ -28,6 +30,8 @@ pub(super) struct Load {
 /// Words of a tool change with the number of an offset in the control.
 pub(super) const OFFSETS: &[&str] = &["ADJUST", "OSETNO", "ZOFF"];
 
+/// Point angle of a drill that is none, degrees.
+const STRAIGHT: f64 = 180.0;
 /// Tools that do not turn.
 const NOT_MILLING: &[&str] = &["TURN", "LATHE", "THREAD", "GROOVE", "WEDM", "LASER", "PUNCH"];
 
@@ -69,11 +73,13 @@ impl Reader<'_> {
             cutter[3] = cutter[1];
         }
         self.state.tool.cutter = cutter;
+        // A cone about the tool's axis.
+        self.state.tool.drill = matches!(cutter, [_, 0.0, 0.0, 0.0, a, 0.0, _] if a > 0.0);
         self.state.tool.stated = true;
         self.state.tool.fresh = true;
     }
 
-    /// `TLDATA/ MILL, d, r, length, taper, tip` or `DRILL, MILL, d, …`.
+    /// `TLDATA/ MILL, d, r, length, taper, tip` or `DRILL, MILL, d, r, length, point angle, …`.
     fn nx_data(&mut self, s: &Statement) {
         if let Some(word) = s.words().find(|w| NOT_MILLING.contains(w)) {
             let message = format!("TLDATA with {word} cannot be carried out: the posts are for milling");
@@ -81,8 +87,15 @@ impl Reader<'_> {
         }
         let numbers = s.numbers();
         let [d, r, ..] = *numbers else { return };
-        let corner = if s.has("DRILL") { 0.0 } else { r };
-        self.cutter(&[d, corner]);
+        let more = |at: usize| numbers.get(at).copied().filter(|v| v.is_finite()).unwrap_or(0.0);
+        let (length, angle) = (more(2), more(3));
+        if s.has("DRILL") {
+            let slope = if angle > 0.0 && angle < STRAIGHT { (STRAIGHT - angle) / 2.0 } else { 0.0 };
+            self.cutter(&[d, 0.0, 0.0, 0.0, slope, 0.0, length]);
+            self.state.tool.drill = true;
+        } else {
+            self.cutter(&[d, r, d / 2.0 - r, r, more(4), angle, length]);
+        }
     }
 
     /// `TOOL PATH/ operation, TOOL, tool`.
@@ -182,8 +195,9 @@ impl Reader<'_> {
         let data = self.state.tool.clone();
         let [d, r, e, f, a, b, h] = data.cutter;
         let kind = match (r, d) {
-            (r, _) if r <= 0.0 && b <= 0.0 => CutterKind::Flat,
-            (_, _) if b > 0.0 => CutterKind::Taper,
+            _ if data.drill => CutterKind::Drill,
+            _ if a > 0.0 || b > 0.0 => CutterKind::Taper,
+            (r, _) if r <= 0.0 => CutterKind::Flat,
             (r, d) if r >= d / 2.0 => CutterKind::Ball,
             _ => CutterKind::Bull,
         };

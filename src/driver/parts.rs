@@ -3,7 +3,7 @@
 //! The file is read twice: once for what a program says at its start (its tools) and for all messages, then part by part
 //! through lowering, writing and proof. Writing runs ahead of the proof by a few parts at most; parts keep their order.
 
-use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::sync::mpsc::{Receiver, sync_channel};
 
 use super::targets::{self, Machines, Ready};
 use super::{Options, Output};
@@ -108,33 +108,40 @@ struct Part {
     last: bool,
 }
 
-/// One program: written on this thread, proven on another.
+/// One program: written on this thread, proven on another; on this one too where it is a worker of the pool, because the
+/// proof asks the pool and a worker that waits for it does not work.
 fn one(file: &ClFile<'_>, survey: &Survey, ready: &Ready, sink: &mut Sink) -> Option<Proven> {
     let loads = survey.loads.as_slice();
     let mut lowering = Lowering::new(ready.capabilities.clone(), loads, &survey.cl.tools);
     // The machine is the same for all parts; a program without blocks tells it.
     let setup = stream::setup(&lowering.chunk(&Cl::default(), false, &mut Sink::default()));
     let mut lowering = Lowering::new(ready.capabilities.clone(), loads, &survey.cl.tools);
-    let setup = &setup;
-    let (sender, receiver) = sync_channel(AHEAD);
-    std::thread::scope(|scope| {
-        let proof = scope.spawn(move || prove(receiver, survey, ready, setup));
-        let written = write(file, survey, ready, &mut lowering, &sender, sink);
-        drop(sender);
-        // A panic of the proof is our own fault and goes on.
-        let (proven, messages) = proof.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
-        sink.append(messages);
-        proven.filter(|_| written)
-    })
+    let mut prover = Prover::new(ready, &setup);
+    let written = if rayon::current_thread_index().is_some() {
+        write(file, survey, ready, &mut lowering, &mut |part| prover.part(&part), sink)
+    } else {
+        let (sender, receiver) = sync_channel(AHEAD);
+        std::thread::scope(|scope| {
+            let proof = scope.spawn(|| prover.listen(receiver));
+            // The proof has failed when nobody listens; its messages say why.
+            let mut send = |part| sender.send(part).is_ok();
+            let written = write(file, survey, ready, &mut lowering, &mut send, sink);
+            drop(sender);
+            // A panic of the proof is our own fault and goes on.
+            proof.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+            written
+        })
+    };
+    prover.finish(survey, sink).filter(|_| written)
 }
 
-/// Whether all of it could be written.
+/// Whether all of it could be written, and `prove` took every part.
 fn write(
     file: &ClFile<'_>,
     survey: &Survey,
     ready: &Ready,
     lowering: &mut Lowering,
-    sender: &SyncSender<Part>,
+    prove: &mut dyn FnMut(Part) -> bool,
     sink: &mut Sink,
 ) -> bool {
     let mut reader = file.reader();
@@ -156,39 +163,54 @@ fn write(
                 return false;
             }
         };
-        // The proof has failed when nobody listens; its messages say why.
-        if sender.send(Part { cl, target, emitted, last }).is_err() {
+        if !prove(Part { cl, target, emitted, last }) {
             return false;
         }
     }
     true
 }
 
-fn prove(
-    receiver: Receiver<Part>,
-    survey: &Survey,
-    ready: &Ready,
-    setup: &MachineSetup,
-) -> (Option<Proven>, Sink) {
-    let mut sink = Sink::default();
-    let proof =
-        Proof::new(ready.dialect.control_with(&ready.capabilities.options), ready.dialect.name(), setup);
-    let mut proof = match proof {
-        Ok(proof) => proof,
-        Err(unknown) => {
-            stream::unknown_control(&unknown, &mut sink);
-            return (None, sink);
-        }
-    };
-    let mut ended = false;
-    for part in receiver {
-        if !proof.part(&part.cl, &part.target, &part.emitted, part.last, &mut sink) {
-            return (None, sink);
-        }
-        ended = part.last;
+/// The proof of one program, part by part.
+struct Prover<'a> {
+    /// None once it has failed.
+    proof: Option<Proof<'a>>,
+    ended: bool,
+    sink: Sink,
+}
+
+impl<'a> Prover<'a> {
+    fn new(ready: &Ready, setup: &'a MachineSetup) -> Prover<'a> {
+        let control = ready.dialect.control_with(&ready.capabilities.options);
+        let mut sink = Sink::default();
+        let proof = Proof::new(control, ready.dialect.name(), setup)
+            .map_err(|unknown| stream::unknown_control(&unknown, &mut sink))
+            .ok();
+        Prover { proof, ended: false, sink }
     }
-    let proven = if ended { proof.finish(operations(survey)) } else { None };
-    (proven, sink)
+
+    fn listen(&mut self, receiver: Receiver<Part>) {
+        for part in receiver {
+            if !self.part(&part) {
+                return;
+            }
+        }
+    }
+
+    /// Whether it is as it should be so far.
+    fn part(&mut self, part: &Part) -> bool {
+        let Some(proof) = &mut self.proof else { return false };
+        if !proof.part(&part.cl, &part.target, &part.emitted, part.last, &mut self.sink) {
+            self.proof = None;
+        }
+        self.ended = part.last;
+        self.proof.is_some()
+    }
+
+    fn finish(self, survey: &Survey, sink: &mut Sink) -> Option<Proven> {
+        sink.append(self.sink);
+        let proof = self.proof.filter(|_| self.ended)?;
+        proof.finish(operations(survey))
+    }
 }
 
 fn operations(survey: &Survey) -> Vec<OperationProof> {

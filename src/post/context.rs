@@ -5,9 +5,13 @@ use serde::Serialize;
 
 use super::events::Events;
 use crate::ir::{CutterKind, Spindle, Tool};
+use crate::math;
 use crate::target::BlockKind;
 use crate::target::number;
 use crate::units::LengthUnit;
+
+/// Decimals of a cutter's angles, degrees.
+const ANGLE_DECIMALS: u8 = 4;
 
 /// What every template can read.
 #[derive(Serialize)]
@@ -86,6 +90,10 @@ pub(super) struct ToolContext {
     kind: &'static str,
     diameter: String,
     corner: String,
+    cutter: String,
+    tip: String,
+    taper: String,
+    height: String,
     text: String,
 }
 
@@ -172,7 +180,23 @@ impl<'a> Events<'a> {
         let called = format!("T{number}");
         let label = if name.eq_ignore_ascii_case(&called) { called } else { format!("{called} {name}") };
         let text = format!("{label}, {kind}, D={}", length(tool.diameter));
-        ToolContext { number, name, kind, diameter: length(tool.diameter), corner: length(tool.corner), text }
+        let degrees = |radians: f64| {
+            number::steps(radians / math::DEG, ANGLE_DECIMALS)
+                .map_or_else(String::new, |s| number::plain(s, ANGLE_DECIMALS))
+        };
+        let [e, f, tip, taper, height] = tool.profile;
+        let (diameter, corner) = (length(tool.diameter), length(tool.corner));
+        // The numbers that diameter and corner say already are left out.
+        let plain = [e, f] == [tool.diameter / 2.0 - tool.corner, tool.corner] || [e, f] == [0.0; 2];
+        let cutter = if plain && [tip, taper, height] == [0.0; 3] {
+            format!("{diameter}, {corner}")
+        } else {
+            let shape = [length(e), length(f), degrees(tip), degrees(taper), length(height)];
+            format!("{diameter}, {corner}, {}", shape.join(", "))
+        };
+        let tip = if kind == "drill" && tip > 0.0 { math::PI - 2.0 * tip } else { tip };
+        let (tip, taper, height) = (degrees(tip), degrees(taper), length(height));
+        ToolContext { number, name, kind, diameter, corner, cutter, tip, taper, height, text }
     }
 
     fn safe_start(&self) -> String {

@@ -1,9 +1,10 @@
 //! Splines of the CL data against the moves that stand for them.
 //!
-//! Both are taken apart into Bézier segments. Where the control draws curves, segment is compared with segment: the basis
-//! functions are positive and sum to one, so the curves are no further apart than their control points. Where it draws
-//! lines, each line's end is looked up on the curve, in order; the distance from a line is a convex function, so between
-//! two such places the curve is no further from the line than the Bernstein mean of its control points' distances says.
+//! Where the control draws curves, Bézier segment is compared with Bézier segment: the basis functions are positive and sum to
+//! one, so the curves are no further apart than their control points. Where it draws lines, the asked curve is cut into chords
+//! so fine that what they leave out is a small share of the tolerance, and each line must have its stretch of them, in order
+//! and within the tolerance (Alt and Godau's decision of the Fréchet distance, with every place of the chords kept that
+//! the end of a line can stand for).
 
 use super::finding::{Finding, Text};
 use super::spline::beziers;
@@ -17,20 +18,10 @@ use crate::readback::{EventKind, TraceMove, TracePath};
 const ORDER: usize = 4;
 /// Steps of the grid that a curve may always be off.
 const LEAST_STEPS: f64 = 2.0;
-/// Steps of the search for a line's end on a segment.
-const LOOKS: u32 = 64;
-/// Parts of a segment whose bounds are taken one by one: the smaller, the closer the bound.
-const PARTS: u32 = 8;
-/// Steps of refining it.
-const REFINE: u32 = 40;
-
-/// A place on the curve: segment, parameter, and how far the point that was looked for is.
-#[derive(Debug, Clone, Copy)]
-struct Place {
-    segment: usize,
-    x: f64,
-    distance: f64,
-}
+/// Share of the tolerance that the chords of a curve may leave out.
+const CHORD_SHARE: f64 = 0.02;
+/// Chords of one segment at most.
+const MOST_CHORDS: f64 = 4096.0;
 
 /// A cubic Bézier segment.
 type Segment = [Point3; ORDER];
@@ -49,7 +40,8 @@ fn one(case: &Case<'_>, spline: &Spline, happenings: &[Happening<'_>], record: u
     let allowed = spline.tolerance().max(LEAST_STEPS * step) + ACCURACY;
     let knots = spline.knots();
     let control: Vec<[f64; 3]> = spline.points().iter().map(|p| [p.x, p.y, p.z]).collect();
-    let mut walk = Walk { segments: cubic(&beziers(ORDER, &control, knots)), next: 0, from: 0.0, allowed };
+    let segments = cubic(&beziers(ORDER, &control, knots));
+    let mut walk = Walk { segments, next: 0, chords: None, allowed };
     let mut worst: Option<(f64, &Happening<'_>)> = None;
     for happening in happenings {
         let EventKind::Move(cut) = happening.kind else { continue };
@@ -72,14 +64,14 @@ fn one(case: &Case<'_>, spline: &Spline, happenings: &[Happening<'_>], record: u
     };
     let (line, block) = at(happening);
     if !off.is_finite() {
-        let text = text.words("a move that does not go on along the curve");
+        let text = text.words("a move that does not go on along the curve within ").length(allowed);
         return Some(Finding::new(&codes::NOT_FOLLOWED, line, block, text));
     }
     if !(off <= allowed) {
         let text = text.words("the path deviates ").length(off).words(" from a curve; it may by ");
         return Some(Finding::new(&codes::OUT_OF_TOLERANCE, line, block, text.length(allowed)));
     }
-    walk.rest(step).map(|rest| {
+    walk.rest().map(|rest| {
         let (line, block) = happenings.last().map_or((line, block), at);
         let text = text.words("the path ends ").length(rest).words(" before the end of its curve");
         Finding::new(&codes::NOT_FOLLOWED, line, block, text)
@@ -94,9 +86,10 @@ fn cubic(parts: &[Vec<[f64; 3]>]) -> Vec<Segment> {
 /// How far the moves have come on the asked curve.
 struct Walk {
     segments: Vec<Segment>,
-    /// The segment under way, and where on it.
+    /// The segment that the next curve stands for.
     next: usize,
-    from: f64,
+    /// Of lines.
+    chords: Option<Chords>,
     allowed: f64,
 }
 
@@ -105,7 +98,7 @@ impl Walk {
     /// none.
     fn along(&mut self, cut: &TraceMove) -> f64 {
         match &cut.path {
-            TracePath::Line { .. } => self.line(cut.start(), cut.end()),
+            TracePath::Line { .. } => self.line(cut.start(), cut.end(), cut.path_tolerance),
             TracePath::Nurbs { order, points, weights, knots } => {
                 let control: Vec<[f64; 3]> = points.iter().map(|p| [p.x, p.y, cut.z.0]).collect();
                 self.curve((*order, weights), &control, knots)
@@ -122,7 +115,7 @@ impl Walk {
     #[allow(clippy::float_cmp)]
     fn curve(&mut self, (order, weights): (u8, &[f64]), control: &[[f64; 3]], knots: &[f64]) -> f64 {
         let drawn = cubic(&beziers(usize::from(order), control, knots));
-        let plain = usize::from(order) == ORDER && weights.iter().all(|w| *w == 1.0) && self.from == 0.0;
+        let plain = usize::from(order) == ORDER && weights.iter().all(|w| *w == 1.0) && self.chords.is_none();
         let (true, Some(start)) = (plain, drawn.first().map(|s| s[0])) else { return f64::INFINITY };
         loop {
             let Some(asked) = self.segments.get(self.next..self.next + drawn.len()) else {
@@ -140,81 +133,120 @@ impl Walk {
         }
     }
 
-    /// A line against the curve up to the place that its end stands for.
-    fn line(&mut self, from: Point3, to: Point3) -> f64 {
-        // Where the curve comes by more than once, the place nearest to the end that leaves the line in tolerance.
-        let mut best: Option<(Place, f64)> = None;
-        for place in self.places(to) {
-            let off = self.off(&place, from, to);
-            let good = |off: f64| off <= self.allowed;
-            let better = best.as_ref().is_none_or(|(b, least)| match (good(off), good(*least)) {
-                (true, true) => place.distance < b.distance,
-                (a, b) if a == b => off < *least,
-                (a, _) => a,
-            });
-            if better {
-                best = Some((place, off));
-            }
+    /// 0 for a line that has its stretch of the curve, infinite for another one.
+    fn line(&mut self, from: Point3, to: Point3, smoothing: f64) -> f64 {
+        if self.next > 0 {
+            return f64::INFINITY;
         }
-        let Some((place, off)) = best else { return f64::INFINITY };
-        (self.next, self.from) =
-            if place.x >= 1.0 { (place.segment + 1, 0.0) } else { (place.segment, place.x) };
-        off
+        let near = self.allowed - smoothing;
+        let chords = self.chords.get_or_insert_with(|| Chords::new(&self.segments, near));
+        if chords.line(from, to, near) { 0.0 } else { f64::INFINITY }
     }
 
-    /// Upper bound of the distance between a line and the curve up to a place.
-    fn off(&self, place: &Place, from: Point3, to: Point3) -> f64 {
-        let mut off = place.distance;
-        for index in self.next..=place.segment {
-            let Some(segment) = self.segments.get(index) else { return f64::INFINITY };
-            let a = if index == self.next { self.from } else { 0.0 };
-            let b = if index == place.segment { place.x } else { 1.0 };
-            for i in 0..PARTS {
-                let at = |i: u32| a + (b - a) * f64::from(i) / f64::from(PARTS);
-                off = off.max(bulge(&part(segment, at(i), at(i + 1)), from, to));
+    /// What is left of the curve, mm, when its end is not reached.
+    fn rest(&self) -> Option<f64> {
+        let end = self.segments.last().map(|s| s[ORDER - 1])?;
+        match &self.chords {
+            Some(chords) => chords.rest(self.allowed),
+            None => {
+                let left = self.segments.get(self.next..).unwrap_or_default().iter().flatten();
+                let most = left.map(|p| (p - end).norm()).fold(0.0, f64::max);
+                (most > self.allowed).then_some(most)
             }
         }
-        off
+    }
+}
+
+/// A curve as fine chords, and where on them the lines so far may have come.
+struct Chords {
+    points: Vec<Point3>,
+    /// What the chords leave out, mm.
+    slack: f64,
+    /// Chords on which the last line may end, and from which share of the chord on.
+    reach: Vec<(usize, f64)>,
+    last: Option<Point3>,
+}
+
+impl Chords {
+    fn new(segments: &[Segment], allowed: f64) -> Chords {
+        let mut points: Vec<Point3> = segments.first().map(|s| s[0]).into_iter().collect();
+        let mut slack = 0.0_f64;
+        for segment in segments {
+            let [a, b, c, d] = segment.map(|p| p.coords);
+            // A cubic's second derivative is between those at its ends.
+            let bend = 6.0 * (a - b * 2.0 + c).norm().max((b - c * 2.0 + d).norm());
+            let count = (bend / (8.0 * CHORD_SHARE * allowed)).sqrt().ceil().clamp(1.0, MOST_CHORDS);
+            slack = slack.max(bend / (8.0 * count * count));
+            let mut i = 1.0;
+            while i <= count {
+                points.push(at(segment, i / count));
+                i += 1.0;
+            }
+        }
+        Chords { points, slack, reach: vec![(0, 0.0)], last: None }
     }
 
-    /// Where the rest of the curve comes as near to a point as allowed, on the first segment that does and the next.
-    fn places(&self, p: Point3) -> Vec<Place> {
-        let mut places = Vec::new();
-        let mut first = None;
-        for (index, segment) in self.segments.iter().enumerate().skip(self.next) {
-            if first.is_some_and(|first| index > first + 1) {
+    fn chord(&self, index: usize) -> Option<(Point3, Point3)> {
+        Some((*self.points.get(index)?, *self.points.get(index + 1)?))
+    }
+
+    /// The next line; whether any stretch of the chords can be its.
+    fn line(&mut self, from: Point3, to: Point3, allowed: f64) -> bool {
+        let near = allowed - self.slack;
+        // A square hides its sign.
+        if !(near > 0.0) {
+            return false;
+        }
+        let starts = self.points.first().is_some_and(|p| self.last.is_some() || (p - from).norm() <= near);
+        let mut reach = Vec::new();
+        let mut entries = self.reach.iter().copied().peekable();
+        let mut index = self.reach.first().map_or(0, |(index, _)| *index);
+        let mut alive = false;
+        while let Some((a, b)) = self.chord(index).filter(|_| starts) {
+            let entry = entries.next_if(|(i, _)| *i == index).map(|(_, share)| share);
+            let begin = if alive { Some(0.0) } else { entry };
+            if begin.is_none() && entries.peek().is_none() {
                 break;
             }
-            let from = if index == self.next { self.from } else { 0.0 };
-            let near =
-                nearest(segment, from, p).into_iter().filter(|(_, distance)| *distance <= self.allowed);
-            places.extend(near.map(|(x, distance)| Place { segment: index, x, distance }));
-            if first.is_none() && !places.is_empty() {
-                first = Some(index);
+            if let Some(share) = begin.and_then(|begin| touches(a, b, begin, to, near)) {
+                reach.push((index, share));
             }
+            alive = begin.is_some() && distance(b, from, to) <= near;
+            index += 1;
         }
-        places
+        self.reach = reach;
+        self.last = Some(to);
+        !self.reach.is_empty()
     }
 
-    /// What is left of the curve, mm, when that is more than a step of the grid.
-    fn rest(&self, step: f64) -> Option<f64> {
-        let end = self.segments.last().map(|s| s[ORDER - 1])?;
-        let left = self.segments.get(self.next..).unwrap_or_default().iter().enumerate();
-        let points = left.flat_map(|(i, s)| part(s, if i == 0 { self.from } else { 0.0 }, 1.0));
-        let most = points.map(|p| (p - end).norm()).fold(0.0, f64::max);
-        (most > LEAST_STEPS * step).then_some(most)
+    fn rest(&self, allowed: f64) -> Option<f64> {
+        let (end, last) = (self.points.last()?, self.last?);
+        let there = self.reach.last().is_some_and(|(index, _)| index + 2 == self.points.len());
+        let left = (end - last).norm();
+        (!there || !(left <= allowed - self.slack)).then_some(left)
     }
 }
 
-/// Point of a segment.
+/// The first share of a chord from `begin` on that is as near to a point as allowed.
+fn touches(a: Point3, b: Point3, begin: f64, p: Point3, near: f64) -> Option<f64> {
+    let (way, v) = (b - a, p - a);
+    let length = way.norm_squared();
+    if length == 0.0 {
+        return (v.norm() <= near).then_some(begin);
+    }
+    let middle = v.dot(&way) / length;
+    let half = (near * near - (v - way * middle).norm_squared()) / length;
+    if !(half >= 0.0) {
+        return None;
+    }
+    let first = (middle - half.sqrt()).max(begin);
+    (first <= (middle + half.sqrt()).min(1.0)).then_some(first)
+}
+
+/// Point of a segment, by de Casteljau's scheme.
 fn at(segment: &Segment, x: f64) -> Point3 {
-    polar(segment, [x; 3])
-}
-
-/// The polar form of a segment.
-fn polar(segment: &Segment, arguments: [f64; 3]) -> Point3 {
     let mut work = *segment;
-    for (round, x) in (1..ORDER).zip(arguments) {
+    for round in 1..ORDER {
         for j in 0..ORDER - round {
             work[j] = work[j] + (work[j + 1] - work[j]) * x;
         }
@@ -222,55 +254,12 @@ fn polar(segment: &Segment, arguments: [f64; 3]) -> Point3 {
     work[0]
 }
 
-/// Control points of the part of a segment from `a` to `b`, by its polar form.
-fn part(segment: &Segment, a: f64, b: f64) -> Segment {
-    [[a, a, a], [a, a, b], [a, b, b], [b, b, b]].map(|arguments| polar(segment, arguments))
-}
-
-/// The places from `from` on a segment that are nearer to a point than those beside them, as far as [`LOOKS`] looks
-/// tell; and how far they are.
-fn nearest(segment: &Segment, from: f64, p: Point3) -> Vec<(f64, f64)> {
-    let step = (1.0 - from) / f64::from(LOOKS);
-    let distance = |x: f64| (at(segment, x) - p).norm();
-    let look = |i: u32| if i == LOOKS { 1.0 } else { from + step * f64::from(i) };
-    let mut found = Vec::new();
-    let (mut before, mut here) = (f64::INFINITY, distance(from));
-    for i in 0..=LOOKS {
-        let after = if i < LOOKS { distance(look(i + 1)) } else { f64::INFINITY };
-        if here <= before && here <= after {
-            found.push(refine(&distance, look(i.saturating_sub(1)), look((i + 1).min(LOOKS))));
-        }
-        (before, here) = (here, after);
-    }
-    found
-}
-
-/// The least value between two places, by sections; an end of the segment where that is no worse in printed numbers.
-fn refine(distance: &impl Fn(f64) -> f64, low: f64, high: f64) -> (f64, f64) {
-    let (mut a, mut b) = (low, high);
-    for _ in 0..REFINE {
-        let (left, right) = (a + (b - a) / 3.0, b - (b - a) / 3.0);
-        if distance(left) <= distance(right) { b = right } else { a = left }
-    }
-    let x = 0.5 * (a + b);
-    [x, low, high]
-        .into_iter()
-        .map(|x| (x, distance(x)))
-        .fold((x, f64::INFINITY), |best, next| if next.1 <= best.1 + ACCURACY { next } else { best })
-}
-
-/// Upper bound of the distance of a Bézier part from the line between two points.
-fn bulge(part: &Segment, from: Point3, to: Point3) -> f64 {
-    let way = to - from;
+/// Distance of a point from the line between two others.
+fn distance(p: Point3, from: Point3, to: Point3) -> f64 {
+    let (way, v) = (to - from, p - from);
     let length = way.norm_squared();
-    let distance = |p: &Point3| {
-        let v = p - from;
-        let x = if length > 0.0 { (v.dot(&way) / length).clamp(0.0, 1.0) } else { 0.0 };
-        (v - way * x).norm()
-    };
-    let [a, b, c, d] = part.each_ref().map(distance);
-    let (ends, inner) = (a.max(d), b.max(c));
-    ends.max(0.25 * ends + 0.75 * inner)
+    let x = if length > 0.0 { (v.dot(&way) / length).clamp(0.0, 1.0) } else { 0.0 };
+    (v - way * x).norm()
 }
 
 #[cfg(test)]
@@ -281,75 +270,70 @@ mod tests {
         [[0.0, 0.0, 0.0], [0.0, 10.0, 1.0], [10.0, 10.0, 2.0], [10.0, 0.0, 3.0]].map(Point3::from)
     }
 
-    #[test]
-    fn a_part_is_the_curve_between_its_ends() {
-        let whole = arch();
-        let half = part(&whole, 0.25, 0.75);
-        for i in 0..=8 {
-            let x = f64::from(i) / 8.0;
-            assert!((at(&half, x) - at(&whole, 0.25 + 0.5 * x)).norm() < 1e-12);
+    fn walk_of(segment: Segment) -> Walk {
+        Walk { segments: vec![segment], next: 0, chords: None, allowed: 0.01 }
+    }
+
+    /// Follows a segment by lines that end at these parameters.
+    fn follow(segment: Segment, ends: &[f64]) -> (bool, bool) {
+        let mut walk = walk_of(segment);
+        let mut from = segment[0];
+        let mut fine = true;
+        for x in ends {
+            let to = at(&segment, *x);
+            fine &= walk.line(from, to, 0.0).is_finite();
+            from = to;
         }
+        (fine, walk.rest().is_none())
+    }
+
+    fn even(n: u32) -> Vec<f64> {
+        (1..=n).map(|i| f64::from(i) / f64::from(n)).collect()
     }
 
     #[test]
-    fn the_bulge_is_no_less_than_any_point_is_off() {
-        let whole = arch();
-        for (a, b) in [(0.0, 1.0), (0.1, 0.3), (0.5, 0.6)] {
-            let piece = part(&whole, a, b);
-            let (from, to) = (piece[0], piece[3]);
-            let way = to - from;
-            let bound = bulge(&piece, from, to);
-            let off = (0..=100).map(|i| {
-                let v = at(&piece, f64::from(i) / 100.0) - from;
-                (v - way * (v.dot(&way) / way.norm_squared()).clamp(0.0, 1.0)).norm()
-            });
-            let worst = off.fold(0.0, f64::max);
-            assert!(worst <= bound + 1e-12 && bound <= 1.4 * worst, "{worst} {bound}");
-        }
-    }
-
-    fn walk() -> Walk {
-        Walk { segments: vec![arch()], next: 0, from: 0.0, allowed: 0.01 }
+    fn fine_lines_follow_and_cut_corners_do_not() {
+        assert_eq!(follow(arch(), &even(32)), (true, true));
+        let mut missing = even(32);
+        missing.remove(15);
+        assert!(!follow(arch(), &missing).0);
+        let mut short = even(32);
+        short.pop();
+        assert_eq!(follow(arch(), &short), (true, false));
+        let mut back = even(32);
+        back.swap(9, 10);
+        assert!(!follow(arch(), &back).0);
+        assert!(walk_of(arch()).rest().is_some());
     }
 
     #[test]
-    fn fine_chords_follow_and_cut_corners_do_not() {
-        let chords = |n: u32, skip: u32| {
-            let mut walk = walk();
-            let mut from = at(&arch(), 0.0);
-            let mut worst = 0.0_f64;
-            for i in (1..=n).filter(|i| *i != skip) {
-                let to = at(&arch(), f64::from(i) / f64::from(n));
-                worst = worst.max(walk.line(from, to));
-                from = to;
-            }
-            (worst, walk.rest(0.001))
-        };
-        let (worst, rest) = chords(32, 0);
-        assert!(worst < 0.01 && rest.is_none(), "{worst} {rest:?}");
-        assert!(chords(32, 16).0 > 0.01);
-        assert!(chords(32, 32).1.is_some());
+    fn smoothing_of_the_control_counts() {
+        let mut walk = walk_of(arch());
+        let to = at(&arch(), 1.0 / 32.0);
+        assert!(walk.line(arch()[0], to, 0.009).is_infinite());
     }
 
     #[test]
-    fn a_line_that_goes_back_stands_for_nothing() {
-        let mut walk = walk();
-        let (a, b) = (at(&arch(), 0.25), at(&arch(), 0.5));
-        walk.allowed = 100.0;
-        assert!(walk.line(at(&arch(), 0.0), b).is_finite());
-        walk.allowed = 0.01;
-        assert!(walk.line(b, a).is_infinite());
+    fn a_curve_that_turns_back_on_itself_is_followed_there_and_back() {
+        let hook: Segment =
+            [[0.0, 0.0, 0.0], [30.0, 0.0, 0.0], [-20.0, 0.001, 0.0], [10.0, 0.0, 0.0]].map(Point3::from);
+        assert_eq!(follow(hook, &even(64)), (true, true));
     }
 
     #[test]
     fn curves_are_compared_segment_by_segment() {
         let control: Vec<[f64; 3]> = arch().iter().map(|p| [p.x, p.y, p.z]).collect();
         let knots = [0.0, 0.0, 0.0, 0.0, 7.0, 7.0, 7.0, 7.0];
+        let walk = || walk_of(arch());
         assert_eq!(walk().curve((4, &[1.0; 4]), &control, &knots), 0.0);
         let mut other = control.clone();
         other[2][1] += 0.5;
         assert_eq!(walk().curve((4, &[1.0; 4]), &other, &knots), 0.5);
         assert!(walk().curve((4, &[1.0, 2.0, 1.0, 1.0]), &control, &knots).is_infinite());
         assert!(walk().curve((3, &[1.0; 4]), &control, &[0.0, 0.0, 0.0, 1.0, 2.0, 2.0, 2.0]).is_infinite());
+        let mut half = walk();
+        assert!(half.rest().is_some());
+        half.curve((4, &[1.0; 4]), &control, &knots);
+        assert!(half.rest().is_none());
     }
 }

@@ -240,6 +240,26 @@ fn what_went_wrong_once_reads_back_as_asked() {
     }
 }
 
+/// Curves that nearly turn back on themselves, found at random.
+#[test]
+fn curves_that_turn_back_are_proven_for_every_post() {
+    let narrow = [[-27.97, 82.17], [21.96, -64.28], [24.1, -58.6], [0.0, 0.0]];
+    let hairpin = [[-22.57, 64.54], [22.32, -53.05], [0.0, -13.03], [0.0, 0.0]];
+    for (points, inner) in [(narrow, 9.0), (hairpin, 5.0)] {
+        let mut cl = cl(&[], LengthUnit::Millimetre);
+        let mut control = vec![Point3::new(0.0, 0.0, 30.0)];
+        control.extend(points.map(|[x, y]| Point3::new(x, y, 30.0)));
+        let knots = vec![0.0, 0.0, 0.0, 0.0, inner, inner + 7.0, inner + 7.0, inner + 7.0, inner + 7.0];
+        let spline = Spline::new(control, knots, 0.01).expect("a spline");
+        let origin = cl.records[0].origin;
+        let kind = RecordKind::Spline(Box::new(spline));
+        cl.records.insert(cl.records.len() - 1, Record { kind, origin });
+        for post in builtin_names() {
+            assert_eq!(trouble(post, &cl), None);
+        }
+    }
+}
+
 /// The words of curves, each changed by 0.05.
 fn damaged(text: &str, lines: core::ops::Range<usize>) -> Vec<String> {
     let mut all = Vec::new();

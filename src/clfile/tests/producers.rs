@@ -185,7 +185,7 @@ fn mastercam_holes() {
          100\n0 30. 5. -23. 50. 3. 0. 120. 30. 5. 50. 0 0",
     );
     assert_eq!(codes, [""; 0]);
-    assert_eq!(kinds(&cl), "RBHHERBHE");
+    assert_eq!(kinds(&cl), "RBHHEBHE");
     let all = cycles(&cl);
     let first = all[0];
     assert_eq!((first.kind, first.retract), (CycleKind::Deep, RetractTo::Initial));
