@@ -97,11 +97,11 @@ impl Reader<'_> {
         let scale = self.state.scale;
         let [initial, reference, top] = [hole.initial, hole.reference, drilling.top].map(|v| v * scale);
         let depth = height + top - initial;
-        if !(depth > SAME) {
+        if depth.is_nan() || depth <= SAME {
             return Err(format!("the hole's bottom is {} mm above the top of the stock", -depth + 0.0));
         }
         let clearance = reference - top;
-        if !(clearance >= 0.0 && initial >= reference - SAME) {
+        if clearance.is_nan() || clearance < 0.0 || initial < reference - SAME {
             return Err("the heights of the cycle are not in order: initial, reference, top of stock".to_owned());
         }
         if hole.feed > 0.0 {

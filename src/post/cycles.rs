@@ -9,7 +9,7 @@ use super::writer::split_feed;
 use crate::cl::{CycleKind, RetractTo};
 use crate::diag::codes;
 use crate::target::number::{self, Style};
-use crate::target::{Cycle, Position};
+use crate::target::{Cycle, FeedWord, Position};
 
 impl Events<'_> {
     /// Prints what stands before the first hole, and keeps what goes into its block.
@@ -63,9 +63,11 @@ impl Events<'_> {
         let (mode, _) = split_feed(cycle.feed);
         if self.writer.state.mode != Some(mode) {
             let code = self.writer.table.modes[mode].clone();
-            self.writer.begin_line(true);
-            self.writer.text(&code);
-            self.writer.end_line();
+            if !code.is_empty() {
+                self.writer.begin_line(true);
+                self.writer.text(&code);
+                self.writer.end_line();
+            }
             self.writer.state.mode = Some(mode);
         }
     }
@@ -109,6 +111,7 @@ impl Events<'_> {
             pitch: optional(pitch),
             dwell: dwell.map_or_else(String::new, |steps| spelled(steps, &dwell_style)),
             feed: spelled(feed, &self.writer.table.feeds[mode].style),
+            per_revolution: matches!(cycle.feed, FeedWord::PerRevolution(_)),
             retract: match cycle.retract {
                 RetractTo::Clearance => "clearance",
                 RetractTo::Initial => "initial",

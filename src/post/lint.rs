@@ -162,7 +162,10 @@ impl Lint<'_> {
             ("inverse-time", spec.feed.inverse_time, &spec.codes.inverse_time),
             ("per-revolution", spec.feed.per_revolution, &spec.codes.per_revolution),
         ];
-        for (name, _, code) in modes.into_iter().filter(|(_, claimed, _)| *claimed) {
+        let spelled = |name: &str| spec.words.get(name).map(|w| (&w.prefix, &w.suffix));
+        // A feed word that says its own unit needs no code before it.
+        let says_itself = |name: &str| spelled(&format!("feed-{name}")) != spelled("feed");
+        for (name, _, code) in modes.into_iter().filter(|(name, claimed, _)| *claimed && !says_itself(name)) {
             let path = format!("feed.{name}");
             if code.is_empty() {
                 self.inexpressible(&path, format!("`{path}` is true, but `codes.{name}` is empty"));

@@ -77,6 +77,7 @@ pub const VARIABLES: &[Variable] = &[
     row(Cycle, "cycle.pitch", "pitch of a thread; empty in other cycles"),
     row(Cycle, "cycle.dwell", "dwell at the bottom, in the unit of `[cycle-dwell]`; empty without one"),
     row(Cycle, "cycle.feed", "feed into the hole, as the feed word spells it"),
+    row(Cycle, "cycle.per_revolution", "whether that is a feed per revolution"),
     row(Cycle, "cycle.retract", "`clearance` or `initial`"),
     row(Cycle, "cycle.rpm", "speed of the spindle"),
 ];

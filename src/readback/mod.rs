@@ -102,7 +102,7 @@ pub fn needs(control: &str) -> Option<Needs> {
     if control == klartext::NAME || control == apt::NAME {
         return Some(Needs { tool_change: true, length_offset: false });
     }
-    word::find(control).map(|r| Needs { tool_change: r.tool_change, length_offset: r.length_offset })
+    word::find(control).map(|(r, _)| Needs { tool_change: r.tool_change, length_offset: r.length_offset })
 }
 
 /// Executes a program and gathers what the machine does.
@@ -156,7 +156,7 @@ impl<'a> Interpreter<'a> {
     /// When no control has this name.
     pub fn new(control: &str, setup: &'a MachineSetup) -> Result<Self, UnknownControl> {
         let reader = match word::find(control) {
-            Some(rules) => Reader::Word(Box::new(word::Reader::new(rules, setup))),
+            Some((rules, renamed)) => Reader::Word(Box::new(word::Reader::new(rules, renamed, setup))),
             None if control == klartext::NAME => Reader::Klartext(Box::new(klartext::Reader::new(setup))),
             None if control == apt::NAME => Reader::Apt(Box::new(apt::Reader::new(setup))),
             None => return Err(UnknownControl(control.to_owned())),

@@ -92,18 +92,43 @@ pub enum RestsOn {
     Message,
 }
 
-/// Rows that come out wrong, as errors of the post that was asked for as `name`.
+/// What comes out wrong, as errors of the post that was asked for as `name`: each fault once, with the first row that
+/// has it and how many do.
 #[must_use]
 pub fn findings(dialect: &Dialect, name: &str) -> Vec<Diagnostic> {
     let matrix = run(dialect);
-    let wrong = matrix.rows.iter().filter(|row| row.verdict == Verdict::Wrong);
-    wrong
-        .map(|row| {
-            let message = format!("the row `{}` of the selftest comes out wrong: {}", row.title, row.remark);
-            Diagnostic::global(&codes::tools::INEXPRESSIBLE, message)
-                .help(format!("`partwright post selftest {name}` shows its lines"))
-        })
-        .collect()
+    let mut found: Vec<(&str, &str, u32)> = Vec::new();
+    for row in matrix.rows.iter().filter(|row| row.verdict == Verdict::Wrong) {
+        for fault in faults(&row.remark) {
+            match found.iter_mut().find(|(known, ..)| *known == fault) {
+                Some((_, _, rows)) => *rows += 1,
+                None => found.push((fault, row.title, 1)),
+            }
+        }
+    }
+    let finding = |(fault, title, rows): (&str, &str, u32)| {
+        let more = if rows > 1 { format!(" and {} more", rows - 1) } else { String::new() };
+        let message = format!("the row `{title}` of the selftest{more} comes out wrong: {fault}");
+        Diagnostic::global(&codes::tools::INEXPRESSIBLE, message)
+            .help(format!("`partwright post selftest {name}` shows its lines"))
+    };
+    found.into_iter().map(finding).collect()
+}
+
+/// The faults of a row without their lines.
+fn faults(remark: &str) -> Vec<&str> {
+    let coded = |part: &str| part.len() > 5 && part.starts_with('E') && part.as_bytes().get(5) == Some(&b':');
+    if !coded(remark) {
+        return vec![remark];
+    }
+    let without_line = |part| match str::split_once(part, " program: ") {
+        Some((before, fault)) if before.contains(": line ") => fault,
+        _ => part,
+    };
+    let mut faults: Vec<&str> = remark.split("; ").filter(|p| coded(p)).map(without_line).collect();
+    let mut known = std::collections::BTreeSet::new();
+    faults.retain(|fault| known.insert(*fault));
+    faults
 }
 
 /// Tries every row.

@@ -19,11 +19,18 @@ pub(super) struct Cycle {
     step: Option<f64>,
     pitch: Option<f64>,
     left: bool,
-    feed: Option<f64>,
+    feed: Option<CycleFeed>,
     dwell: f64,
     orient: bool,
     /// Back to the height where the cycle began.
     initial: Option<f64>,
+}
+
+/// Feed into the hole, mm/min or mm per revolution.
+#[derive(Debug, Clone, Copy)]
+struct CycleFeed {
+    value: f64,
+    per_revolution: bool,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -100,8 +107,9 @@ impl Reader<'_> {
             "CLEAR" => cycle.clearance = number * u,
             "STEP" => cycle.step = Some(number * u),
             "PITCH" => cycle.pitch = Some(number * u),
-            "MMPM" => cycle.feed = Some(number),
-            "IPM" => cycle.feed = Some(number * 25.4),
+            "MMPM" => cycle.feed = Some(CycleFeed { value: number, per_revolution: false }),
+            "IPM" => cycle.feed = Some(CycleFeed { value: number * 25.4, per_revolution: false }),
+            "PERREV" => cycle.feed = Some(CycleFeed { value: number * u, per_revolution: true }),
             "DWELL" => cycle.dwell = number,
             "ORIENT" => cycle.orient = true,
             other => out.fault(format!("{other} in CYCLE is not followed by this reader")),
@@ -114,10 +122,10 @@ impl Reader<'_> {
         let kept = (self.feed, self.direction, self.per_revolution);
         let (r, bottom) = (point.z + cycle.clearance, point.z - cycle.depth);
         self.in_cycle = true;
-        self.per_revolution = false;
-        self.feed = match cycle.pitch.filter(|_| cycle.kind == Kind::Tap) {
-            Some(pitch) => Some(pitch * self.speed),
-            None => cycle.feed.or(kept.0),
+        (self.feed, self.per_revolution) = match (cycle.pitch, cycle.feed) {
+            (Some(pitch), _) if cycle.kind == Kind::Tap => (Some(pitch * self.speed), false),
+            (_, Some(feed)) => (Some(feed.value), feed.per_revolution),
+            (_, None) => (kept.0, kept.2),
         };
         if cycle.kind == Kind::Tap && (self.direction < 0.0) != cycle.left {
             self.direction = if cycle.left { -1.0 } else { 1.0 };

@@ -90,6 +90,19 @@ impl Block {
             fault(format!("more than {MAX_CODES} G codes in one block"));
         }
     }
+    /// Takes the codes as the reader calls them; what it calls otherwise than the machine is none of the machine's.
+    pub(super) fn rename(&mut self, renamed: &[super::renamed::Renamed], fault: &mut dyn FnMut(String)) {
+        for (letter, codes) in [(b'G', &mut self.g), (b'M', &mut self.m)] {
+            for code in codes.items.iter_mut().take(codes.len) {
+                if let Some(known) = renamed.iter().find(|r| r.letter == letter && r.written == *code) {
+                    *code = known.meant;
+                } else if let Some(other) = renamed.iter().find(|r| r.letter == letter && r.meant == *code) {
+                    let [written, meant] = other.names();
+                    fault(format!("unknown code {meant}: this machine calls it {written}"));
+                }
+            }
+        }
+    }
     pub(super) fn clear(&mut self) {
         self.g.len = 0;
         self.m.len = 0;

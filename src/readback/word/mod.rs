@@ -15,18 +15,22 @@ mod iso;
 mod machine;
 mod motion;
 mod nurbs;
+mod renamed;
 mod rules;
 mod sinumerik;
 mod state;
+
+use renamed::Renamed;
 
 pub(super) use controls::CONTROLS;
 
 #[cfg(test)]
 mod tests;
 
-/// The control of this name.
-pub(super) fn find(control: &str) -> Option<&'static rules::Rules> {
-    CONTROLS.into_iter().find(|c| c.name == control)
+/// The control of this name, and the codes that stand behind it.
+pub(super) fn find(control: &str) -> Option<(&'static rules::Rules, Vec<Renamed>)> {
+    let (name, renamed) = renamed::split(control)?;
+    CONTROLS.into_iter().find(|c| c.name == name).map(|rules| (rules, renamed))
 }
 
 /// Reads lines and executes them.
@@ -34,12 +38,17 @@ pub(super) fn find(control: &str) -> Option<&'static rules::Rules> {
 pub(super) struct Reader<'a> {
     machine: machine::Machine<'a>,
     block: block::Block,
+    renamed: Vec<Renamed>,
 }
 
 impl<'a> Reader<'a> {
     /// A control as it stands after power-on.
-    pub(super) fn new(rules: &'static rules::Rules, setup: &'a MachineSetup) -> Self {
-        Reader { machine: machine::Machine::new(rules, setup), block: block::Block::default() }
+    pub(super) fn new(
+        rules: &'static rules::Rules,
+        renamed: Vec<Renamed>,
+        setup: &'a MachineSetup,
+    ) -> Self {
+        Reader { machine: machine::Machine::new(rules, setup), block: block::Block::default(), renamed }
     }
 
     /// Executes a line without its end.
@@ -50,6 +59,9 @@ impl<'a> Reader<'a> {
             rules::Language::Sinumerik => sinumerik::read,
         };
         read(line, rules, &mut self.block, &mut |message| out.fault(message));
+        if !self.renamed.is_empty() {
+            self.block.rename(&self.renamed, &mut |message| out.fault(message));
+        }
         if rules.line_limit.is_some_and(|limit| self.block.length > limit) {
             out.fault(format!(
                 "the line has {} characters, the control takes {}",
