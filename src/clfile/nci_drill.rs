@@ -102,7 +102,9 @@ impl Reader<'_> {
         }
         let clearance = reference - top;
         if clearance.is_nan() || clearance < 0.0 || initial < reference - SAME {
-            return Err("the heights of the cycle are not in order: initial, reference, top of stock".to_owned());
+            return Err(
+                "the heights of the cycle are not in order: initial, reference, top of stock".to_owned()
+            );
         }
         if hole.feed > 0.0 {
             self.set_feed_number(hole.feed);
@@ -120,7 +122,13 @@ impl Reader<'_> {
         Asked::new(cycle, return_to)
     }
 
-    fn nci_kind(&self, drilling: &Drilling, dwell: bool, pecks: bool, feed: Feed) -> Result<CycleKind, String> {
+    fn nci_kind(
+        &self,
+        drilling: &Drilling,
+        dwell: bool,
+        pecks: bool,
+        feed: Feed,
+    ) -> Result<CycleKind, String> {
         let kind = match (drilling.kind as i64, dwell) {
             (0, false) => CycleKind::Drill,
             (0, true) => CycleKind::Dwell,

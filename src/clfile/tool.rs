@@ -5,6 +5,7 @@ use super::reader::Reader;
 use crate::cl::{Guard, Operation, RecordKind};
 use crate::diag::codes::foreign as codes;
 use crate::ir::{CutterKind, Tool};
+use crate::math;
 use crate::source::Span;
 
 /// What is known of the next tool.
@@ -30,10 +31,17 @@ pub(super) struct Load {
 /// Words of a tool change with the number of an offset in the control.
 pub(super) const OFFSETS: &[&str] = &["ADJUST", "OSETNO", "ZOFF"];
 
+/// How far the tip of a cone may be off the tool's axis, in diameters.
+const CONE: f64 = 0.01;
 /// Point angle of a drill that is none, degrees.
 const STRAIGHT: f64 = 180.0;
 /// Tools that do not turn.
 const NOT_MILLING: &[&str] = &["TURN", "LATHE", "THREAD", "GROOVE", "WEDM", "LASER", "PUNCH"];
+
+/// Whether the bottom is a cone up to the tool's axis: the numbers of `CUTTER/`, angles in radians.
+fn is_cone([d, r, e, f, a, b, _]: [f64; 7]) -> bool {
+    r == 0.0 && b == 0.0 && a > 0.0 && (f - e * math::tan(a)).abs() <= CONE * d
+}
 
 impl Data {
     /// Diameter in mm, if the file gave one.
@@ -73,8 +81,7 @@ impl Reader<'_> {
             cutter[3] = cutter[1];
         }
         self.state.tool.cutter = cutter;
-        // A cone about the tool's axis.
-        self.state.tool.drill = matches!(cutter, [_, 0.0, 0.0, 0.0, a, 0.0, _] if a > 0.0);
+        self.state.tool.drill = is_cone(cutter);
         self.state.tool.stated = true;
         self.state.tool.fresh = true;
     }

@@ -62,7 +62,6 @@ pub(super) struct CycleContext {
     /// In the unit of `cycle-dwell`.
     pub dwell: String,
     pub feed: String,
-    pub per_revolution: bool,
     /// `clearance` or `initial`.
     pub retract: &'static str,
     pub rpm: i64,

@@ -9,7 +9,7 @@ use super::writer::split_feed;
 use crate::cl::{CycleKind, RetractTo};
 use crate::diag::codes;
 use crate::target::number::{self, Style};
-use crate::target::{Cycle, FeedWord, Position};
+use crate::target::{Cycle, Position};
 
 impl Events<'_> {
     /// Prints what stands before the first hole, and keeps what goes into its block.
@@ -111,7 +111,6 @@ impl Events<'_> {
             pitch: optional(pitch),
             dwell: dwell.map_or_else(String::new, |steps| spelled(steps, &dwell_style)),
             feed: spelled(feed, &self.writer.table.feeds[mode].style),
-            per_revolution: matches!(cycle.feed, FeedWord::PerRevolution(_)),
             retract: match cycle.retract {
                 RetractTo::Clearance => "clearance",
                 RetractTo::Initial => "initial",

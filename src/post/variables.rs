@@ -55,8 +55,16 @@ pub const VARIABLES: &[Variable] = &[
     row(ToolChange, "tool.kind", "`flat`, `ball`, `bull`, `taper` or `drill`"),
     row(ToolChange, "tool.diameter", "diameter in the program's unit"),
     row(ToolChange, "tool.corner", "corner radius in the program's unit"),
-    row(ToolChange, "tool.cutter", "the numbers of `CUTTER/`: diameter and corner, all seven where they say more"),
-    row(ToolChange, "tool.tip", "angle of the bottom against the level in degrees; of a drill, its point angle; 0 where that is not known"),
+    row(
+        ToolChange,
+        "tool.cutter",
+        "the numbers of `CUTTER/`: diameter and corner, all seven where they say more",
+    ),
+    row(
+        ToolChange,
+        "tool.tip",
+        "angle of the bottom against the level in degrees; of a drill, its point angle; 0 where that is not known",
+    ),
     row(ToolChange, "tool.taper", "angle of the side against the axis, degrees"),
     row(ToolChange, "tool.height", "height of the cutter in the program's unit, 0 where that is not known"),
     row(ToolChange, "tool.text", "number, name, kind and diameter in one line"),
@@ -77,7 +85,6 @@ pub const VARIABLES: &[Variable] = &[
     row(Cycle, "cycle.pitch", "pitch of a thread; empty in other cycles"),
     row(Cycle, "cycle.dwell", "dwell at the bottom, in the unit of `[cycle-dwell]`; empty without one"),
     row(Cycle, "cycle.feed", "feed into the hole, as the feed word spells it"),
-    row(Cycle, "cycle.per_revolution", "whether that is a feed per revolution"),
     row(Cycle, "cycle.retract", "`clearance` or `initial`"),
     row(Cycle, "cycle.rpm", "speed of the spindle"),
 ];

@@ -165,7 +165,8 @@ fn mastercam_pairs() {
 
 /// Tool 1 at 2000 rpm above the first hole.
 fn drilled(records: &str) -> (Cl, Vec<&'static str>) {
-    let text = format!("1002\n0 100 10 1 1 1 0 2000 300. 1\n0\n0 10. 0. 50. -2. 0\n{records}\n80\n0\n1003\n0\n");
+    let text =
+        format!("1002\n0 100 10 1 1 1 0 2000 300. 1\n0\n0 10. 0. 50. -2. 0\n{records}\n80\n0\n1003\n0\n");
     read_as(&text, Some(Producer::Mastercam), false)
 }
 

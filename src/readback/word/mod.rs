@@ -43,11 +43,7 @@ pub(super) struct Reader<'a> {
 
 impl<'a> Reader<'a> {
     /// A control as it stands after power-on.
-    pub(super) fn new(
-        rules: &'static rules::Rules,
-        renamed: Vec<Renamed>,
-        setup: &'a MachineSetup,
-    ) -> Self {
+    pub(super) fn new(rules: &'static rules::Rules, renamed: Vec<Renamed>, setup: &'a MachineSetup) -> Self {
         Reader { machine: machine::Machine::new(rules, setup), block: block::Block::default(), renamed }
     }
 

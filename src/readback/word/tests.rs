@@ -101,10 +101,21 @@ fn full_circles_helices_and_turns() {
 #[test]
 fn a_machine_may_call_codes_otherwise() {
     let text = linuxcnc("G1 X1 M21").replace("G21", "G71");
-    assert_eq!(clean("linuxcnc G70=G20 G71=G21 M21=M8", &text).len(), clean("linuxcnc", &linuxcnc("G1 X1 M8")).len());
+    assert_eq!(
+        clean("linuxcnc G70=G20 G71=G21 M21=M8", &text).len(),
+        clean("linuxcnc", &linuxcnc("G1 X1 M8")).len()
+    );
     let other = trace("linuxcnc G71=G21", &linuxcnc("G1 X1")).faults;
     assert!(other.iter().any(|f| f.message == "unknown code G21: this machine calls it G71"), "{other:?}");
-    for bad in ["linuxcnc G71", "linuxcnc G71=M21", "linuxcnc X1=X2", "linuxcnc G71=G71", "G71=G21", "fanuk G71=G21", ""] {
+    for bad in [
+        "linuxcnc G71",
+        "linuxcnc G71=M21",
+        "linuxcnc X1=X2",
+        "linuxcnc G71=G71",
+        "G71=G21",
+        "fanuk G71=G21",
+        "",
+    ] {
         assert!(run(b"M2", bad, &setup()).is_err(), "{bad}");
     }
 }
