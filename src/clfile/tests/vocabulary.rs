@@ -5,6 +5,9 @@ use std::collections::BTreeSet;
 use super::{framed, read_as};
 use crate::cl::{Cl, CycleKind, RecordKind, print};
 use crate::clfile::{Producer, words};
+use crate::driver::Options;
+use crate::ir::Feed;
+use crate::source::MemoryFiles;
 
 /// Records of every word, in a program that has moved already. A word without an example fails the test below.
 const EXAMPLES: &[(&str, &[&str])] = &[
@@ -164,8 +167,16 @@ const EXAMPLES: &[(&str, &[&str])] = &[
     ("REMARK", &["REMARK nothing"]),
 ];
 
+/// Speed of the spindle in the frame of the examples.
+const RPM: f64 = 1000.0;
+
 /// Numbers of a text to a nanometre.
 fn rounded(text: &str) -> String {
+    rounded_to(text, 1e6)
+}
+
+/// Numbers of a text in as many parts of 1.
+fn rounded_to(text: &str, parts: f64) -> String {
     let mut out = String::new();
     let mut number = String::new();
     for c in text.chars().chain(['\n']) {
@@ -174,7 +185,7 @@ fn rounded(text: &str) -> String {
             continue;
         }
         match number.parse::<f64>() {
-            Ok(value) => out += &format!("{}", (value * 1e6).round() / 1e6 + 0.0),
+            Ok(value) => out += &format!("{}", (value * parts).round() / parts + 0.0),
             Err(_) => out += &number,
         }
         number.clear();
@@ -220,6 +231,66 @@ fn every_word_is_written_as_it_was_read() {
             assert!(codes.iter().all(|c| !c.starts_with('E')), "{word}: {codes:?} in\n{text}");
             assert_eq!(print::print(&second), text, "{word}: {example}");
             assert_eq!(said(&second), said(&first), "{word}: {example}\n{text}");
+        }
+    }
+}
+
+/// What is left of a program when it is written for a CL reader and read again, but for its points: those are fitted to
+/// decimals, and a curve comes as lines.
+fn facts(cl: &Cl) -> Vec<String> {
+    let mut plain = cl.clone();
+    for record in &mut plain.records {
+        match &mut record.kind {
+            // One depth of peck is kept, the smaller one; the feed into a hole is written per minute.
+            RecordKind::BeginCycle(cycle) => {
+                cycle.first_peck = None;
+                if let Feed::PerRevolution(feed) = cycle.feed {
+                    cycle.feed = Feed::PerMinute(feed * RPM);
+                }
+            }
+            // A dollar would go on in the next line.
+            RecordKind::Comment(text) => *text = text.replace('$', "_"),
+            _ => {}
+        }
+    }
+    let points = ["Rapid", "Linear", "Circle", "Spline", "From", "begin", "EndOperation"];
+    let mut facts = said(&plain);
+    facts.retain(|fact| !points.iter().any(|p| fact.starts_with(p)));
+    // A program ends with what is on switched off.
+    while facts.last().is_some_and(|f| f.starts_with("Spindle(Off)") || f.starts_with("Coolant(Off)")) {
+        facts.pop();
+    }
+    // Surface speeds come as speeds with three decimals.
+    facts.iter().map(|fact| rounded_to(fact, 1e3)).collect()
+}
+
+/// The CL text that a flavour of the post `apt-cl` makes of a CL file.
+fn posted(text: &str, flavour: &str) -> String {
+    let files = MemoryFiles([("part.cls".to_owned(), text.to_owned())].into());
+    let options = Options {
+        posts: vec!["apt-cl".to_owned()],
+        post_set: vec![("options.FLAVOUR".to_owned(), flavour.to_owned())],
+        is_cl: true,
+        only_nc: true,
+        ..Options::default()
+    };
+    let build = crate::driver::build("part.cls", &files, &options);
+    let proven = build.outputs.first().and_then(|o| o.proven.as_ref());
+    proven.unwrap_or_else(|| panic!("{text}\n{:?}", build.diagnostics)).text().to_owned()
+}
+
+#[test]
+fn every_word_survives_the_post_for_cl_text_in_both_flavours() {
+    for flavour in ["plain", "nx"] {
+        for (word, examples) in EXAMPLES {
+            for example in *examples {
+                let first = read_as(&framed(example), Some(Producer::Plain), false).0;
+                let text = posted(&framed(example), flavour);
+                let (second, codes) = read_as(&text, None, false);
+                assert!(codes.iter().all(|c| !c.starts_with('E')), "{word}: {codes:?} in\n{text}");
+                assert_eq!(facts(&second), facts(&first), "{word}: {example}\n{text}");
+                assert_eq!(facts(&read_as(&posted(&text, flavour), None, false).0), facts(&second), "{text}");
+            }
         }
     }
 }
