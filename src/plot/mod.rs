@@ -82,7 +82,7 @@ impl core::fmt::Display for PlotError {
             PlotError::NoPath => f.write_str("the program moves no cutter"),
             PlotError::NoContour => f.write_str("the program cuts no contour whose deviation could be drawn"),
             PlotError::NoSurface => {
-                f.write_str("the program finishes no surface with a ball-end cutter: there is no deviation to show in space")
+                f.write_str("the program finishes no surface: there is no deviation to show in space")
             }
             PlotError::FlatOnly => f.write_str(
                 "the picture of a cam is a .svg or a .png; its path and blank are in `--what path`",

@@ -162,7 +162,7 @@ impl Analyser<'_> {
     pub(super) fn surfac(&mut self, m: &Matched, name: Option<String>) {
         let tool = self.ready("SURFAC", m);
         let spacing = self.spacing(m);
-        let tool = tool.and_then(|tool| self.finisher(m, tool, spacing));
+        let tool = tool.and_then(|tool| self.finisher(m, tool));
         let Some(Entity::Net(net)) = m.entity("net") else { return };
         let net = *net;
         let (Some(tool), Some(spacing)) = (tool, spacing) else { return };
@@ -186,7 +186,7 @@ impl Analyser<'_> {
 
     /// `ROUGH/ net, OFFSET, leave …`.
     pub(super) fn rough_offset(&mut self, m: &Matched, name: Option<String>) {
-        let tool = self.ready("ROUGH", m).and_then(|tool| self.ball(m, tool));
+        let tool = self.ready("ROUGH", m).and_then(|tool| self.finisher(m, tool));
         let (Some(tool), Some(Entity::Net(net)), Some(leave)) = (tool, m.entity("net"), m.number("leave"))
         else {
             return;
@@ -259,23 +259,18 @@ impl Analyser<'_> {
     }
 
     /// The cutter, if it can finish a surface so.
-    fn finisher(
-        &mut self,
-        m: &Matched,
-        tool: Handle<Tool>,
-        spacing: Option<Spacing>,
-    ) -> Option<Handle<Tool>> {
+    fn finisher(&mut self, m: &Matched, tool: Handle<Tool>) -> Option<Handle<Tool>> {
         let cutter = &self.program.tools[tool];
         let solid = cutter.solid();
         if solid.is_some_and(|s| s.is_ball()) {
             return Some(tool);
         }
-        let by_cusp = matches!(spacing, Some(Spacing::Cusp(_))) || along(m) == Along::IsoCusp;
+        let bends = matches!(along(m), Along::IsoCusp | Along::Const);
         let (message, help) = match solid {
-            Some(_) if !by_cusp => return Some(tool),
+            Some(_) if !bends => return Some(tool),
             Some(_) => (
-                format!("heights of cusps are for ball-end cutters, and {} is none", cutter.name),
-                "give the distance of passes: `STEP, 0.5`, with U, V, X or Y",
+                format!("ISOCSP and CONST are for ball-end cutters, and {} is none", cutter.name),
+                "take passes along U, V, X or Y: they lie as close as `CUSP` asks for",
             ),
             None if cutter.kind == CutterKind::Taper => (
                 format!(

@@ -36,6 +36,11 @@ pub(super) struct Profile {
 
 /// Points beside the profile by less count as on it, mm.
 const GRAZES: f64 = 1e-12;
+/// Length of a plan vector; far from the ends of the range of numbers, as points of surfaces are.
+pub(super) fn length(x: f64, y: f64) -> f64 {
+    (x * x + y * y).sqrt()
+}
+
 /// Height of the solid, mm: far above any surface.
 const ENDLESS: f64 = 1e5;
 
@@ -85,8 +90,9 @@ impl Cutter {
     pub fn lift(&self) -> f64 {
         self.lift
     }
-    /// Radius of the core's disc, mm.
-    pub(super) fn disc(&self) -> f64 {
+    /// Radius of the core's disc, mm: of its flat.
+    #[must_use]
+    pub fn flat(&self) -> f64 {
         self.disc
     }
     /// From the point where it touches a surface to its axis, in plan, mm; `n` is the plan part of the surface's normal.
@@ -143,7 +149,7 @@ impl Cutter {
 
     /// Support function of the core.
     pub(super) fn core_support(&self, n: Vec3) -> f64 {
-        let beside = math::hypot(n.x, n.y);
+        let beside = length(n.x, n.y);
         let [sin, cos] = self.side;
         self.disc * beside + (beside * sin + n.z * cos).max(0.0) * ENDLESS
     }
@@ -151,7 +157,7 @@ impl Cutter {
     /// How far `q`, seen from the reference point, is outside the core (below zero: how deep inside), with the outward unit
     /// normal there.
     pub(super) fn outside_core(&self, q: Vec3) -> (f64, Vec3) {
-        let beside = math::hypot(q.x, q.y);
+        let beside = length(q.x, q.y);
         let (d, [across, up]) = self.flat_distance(beside, q.z);
         let e = if beside > 0.0 { [q.x / beside, q.y / beside] } else { [1.0, 0.0] };
         (d, Vec3::new(e[0] * across, e[1] * across, up))
@@ -172,13 +178,13 @@ impl Cutter {
         if along >= 0.0 {
             return (right, [cos, -sin]);
         }
-        let d = math::hypot(off, height);
+        let d = length(off, height);
         if d > 0.0 { (d, [off / d, height / d]) } else { (0.0, [0.0, -1.0]) }
     }
 
     /// Curvature of the core's distance at such a point: about the axis, and in the plane of the profile.
     pub(super) fn core_bend(&self, q: Vec3) -> [f64; 2] {
-        let beside = math::hypot(q.x, q.y);
+        let beside = length(q.x, q.y);
         let (d, [across, up]) = self.flat_distance(beside, q.z);
         let round = if beside > 0.0 { across / beside } else { 0.0 };
         let [sin, cos] = self.side;

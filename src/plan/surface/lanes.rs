@@ -1,15 +1,18 @@
 //! Passes of cutters with a flat or a cone: their axis runs over lines in plan, and they are let down everywhere.
 //!
 //! Where such a cutter touches may leap over the surface from one place to the next; so passes are spread in plan,
-//! no farther apart than the step asked for, and go on beyond the edges where the far side of the cutter cuts.
+//! no farther apart than the step asked for or the ridges between them allow ([`super::apart`]), and go on beyond the edges
+//! where the far side of the cutter cuts.
 
 use std::sync::Arc;
 
+use super::apart::Apart;
 use super::family::{Leg, crossings};
 use crate::geom::surface::{Cutter, Guide, Rim, SurfaceTree, Track};
 use crate::geom::{Point2, Point3, Vec2};
-use crate::ir::{Along, Band, Surface};
+use crate::ir::{Along, Band, Spacing, Surface};
 use crate::math::count;
+use crate::plan::closer::Shares;
 
 /// Places on an edge of the outline.
 const EDGE: u32 = 200;
@@ -20,8 +23,12 @@ const ALONG: u32 = 24;
 const MOST: f64 = 50_000.0;
 /// Passes begin so far inside the outline, as a share of its width: at its border it has no length.
 const INSET: f64 = 1e-3;
-/// Vertices may be to the side of their line by this share of the step.
-const ASIDE: f64 = 0.05;
+/// Vertices may be to the side of their line by this share of the step, and of the distance to the next pass where the
+/// height of cusps is asked for.
+const ASIDE: (f64, f64) = (0.05, 0.02);
+/// Where a pass ends because the cutter touches nothing more, it ends so much earlier, mm: on the control's grid it touches
+/// still.
+const SHORT: f64 = 0.005;
 /// Places at which that is told.
 const ROOMS: usize = 17;
 
@@ -30,8 +37,10 @@ struct Lanes {
     tree: Arc<SurfaceTree>,
     cutter: Cutter,
     rim: Rim,
-    step: f64,
 }
+
+/// A pass and the room beside it, mm.
+type Lane = (Track, f64);
 
 /// The cutter with a hull to the middle of its band, and the band about that: the exact track then has a round corner
 /// and a normal everywhere.
@@ -42,38 +51,43 @@ pub(super) fn within(cutter: &Cutter, leave: f64, band: Band) -> (Cutter, Band) 
     (cutter.grown(leave + half - into), Band { into: half, out: half })
 }
 
-/// All passes and the ways between them, in the order they are cut.
+/// All passes and the ways between them, in the order they are cut, for a cutter with this hull about it.
 pub(super) fn legs(
     surface: &Surface,
     tree: &Arc<SurfaceTree>,
-    cutter: Cutter,
-    step: f64,
+    (hull, bare): (Cutter, &Cutter),
+    shares: &Shares,
 ) -> Result<Vec<Leg>, String> {
-    let rim = Rim::new(tree.net(), &cutter);
-    let lanes = Lanes { tree: Arc::clone(tree), cutter, rim, step };
+    let lanes = Lanes { tree: Arc::clone(tree), cutter: hull, rim: Rim::new(tree.net(), &hull) };
+    let apart = match surface.spacing {
+        Spacing::Step(step) => Steps::Even(step),
+        Spacing::Cusp(cusp) => {
+            Steps::Apart(Apart { hull, bare: *bare, by: hull.corner() - bare.corner(), cusp, shares: shares.clone() })
+        }
+    };
     let mut tracks = match surface.along {
-        Along::X => lanes.lines(0)?,
-        Along::Y => lanes.lines(1)?,
-        Along::V => lanes.parameters(1)?,
-        Along::U | Along::IsoCusp | Along::Const => lanes.parameters(0)?,
+        Along::X => lanes.lines(0, &apart)?,
+        Along::Y => lanes.lines(1, &apart)?,
+        Along::V => lanes.parameters(1, &apart)?,
+        Along::U | Along::IsoCusp | Along::Const => lanes.parameters(0, &apart)?,
     };
     if tracks.is_empty() {
         return Err("no pass meets the surface".into());
     }
     if surface.zigzag {
-        for track in tracks.iter_mut().skip(1).step_by(2) {
+        for (track, _) in tracks.iter_mut().skip(1).step_by(2) {
             *track = track.reversed();
         }
     }
     let mut legs: Vec<Leg> = Vec::with_capacity(2 * tracks.len());
-    for track in tracks {
+    for (track, room) in tracks {
         let before = legs.last_mut().filter(|_| surface.zigzag);
         let link = before.and_then(|before| lanes.link(&before.track, &track));
         if let Some(before) = legs.last_mut() {
             before.last = link.is_none();
         }
         legs.extend(link.map(|track| Leg { track, room: Vec::new(), last: false }));
-        let room = if matches!(track.guide, Guide::Line { .. }) { Vec::new() } else { lanes.room() };
+        let room = if matches!(track.guide, Guide::Line { .. }) { Vec::new() } else { vec![room; ROOMS] };
         legs.push(Leg { track, room, last: false });
     }
     if let Some(end) = legs.last_mut() {
@@ -82,40 +96,62 @@ pub(super) fn legs(
     Ok(legs)
 }
 
-impl Lanes {
-    fn room(&self) -> Vec<f64> {
-        vec![ASIDE * self.step; ROOMS]
-    }
+/// How far passes lie apart.
+enum Steps {
+    /// By no more than so much, mm.
+    Even(f64),
+    /// By what the ridges between them allow.
+    Apart(Apart),
+}
 
+impl Steps {
+    /// Passes over a width, mm, each with its room.
+    fn over(&self, width: f64, make: &dyn Fn(f64) -> Option<Track>) -> Result<Vec<Lane>, String> {
+        match self {
+            Steps::Even(step) => {
+                let wanted = (width / step).ceil().max(1.0);
+                if wanted.is_nan() || wanted > MOST {
+                    return Err(format!("this step asks for more than {MOST} passes"));
+                }
+                // At most MOST, and floats saturate.
+                let passes = wanted as usize;
+                let lane = |k: usize| Some((make(width * count(k) / count(passes))?, ASIDE.0 * step));
+                Ok((0..=passes).filter_map(lane).collect())
+            }
+            Steps::Apart(apart) => {
+                let passes = apart.march(width, make)?;
+                let places: Vec<f64> = passes.iter().map(|(at, _)| *at).collect();
+                let least = |k: usize| {
+                    let near = places.get(k.saturating_sub(1)..(k + 2).min(places.len())).unwrap_or_default();
+                    near.windows(2).map(|w| w[1] - w[0]).fold(f64::INFINITY, f64::min).min(width)
+                };
+                let lane = |(k, (_, track)): (usize, (f64, Track))| (track, ASIDE.1 * least(k));
+                Ok(passes.into_iter().enumerate().map(lane).collect())
+            }
+        }
+    }
+}
+
+impl Lanes {
     fn track(&self, guide: Guide) -> Track {
         Track { tree: Arc::clone(&self.tree), radius: self.cutter.corner(), cutter: self.cutter, guide }
     }
 
-    fn passes(&self, width: f64) -> Result<usize, String> {
-        let wanted = (width / self.step).ceil().max(1.0);
-        if wanted.is_nan() || wanted > MOST {
-            return Err(format!("this step asks for more than {MOST} passes"));
-        }
-        // At most MOST, and floats saturate.
-        Ok(wanted as usize)
-    }
-
     /// Straight lines along x (0) or y (1).
-    fn lines(&self, axis: usize) -> Result<Vec<Track>, String> {
+    fn lines(&self, axis: usize, steps: &Steps) -> Result<Vec<Lane>, String> {
         let outline = self.rim.outline(self.tree.net(), EDGE);
         let across = outline.iter().map(|p| p[1 - axis]);
         let (low, high) = across.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
         let inset = INSET * (high - low);
         let (low, high) = (low + inset, high - inset);
-        let passes = self.passes(high - low)?;
-        let line = |k: usize| {
-            let across = low + (high - low) * count(k) / count(passes);
+        let line = |beyond: f64| {
+            let across = low + beyond;
             let (a, b) = crossings(&outline, axis, across)?;
             let place =
                 |along: f64| if axis == 0 { Point2::new(along, across) } else { Point2::new(across, along) };
             self.held(place(a), place(b))
         };
-        Ok((0..=passes).filter_map(line).collect())
+        steps.over(high - low, &line)
     }
 
     /// A line, cut back to where the cutter touches at both ends.
@@ -134,14 +170,15 @@ impl Lanes {
             on
         };
         let part = 1.0 / f64::from(PARTS);
-        let a = if first > 0.0 { end(first, first - part) } else { 0.0 };
-        let b = if last < 1.0 { end(last, last + part) } else { 1.0 };
+        let short = SHORT / (to - from).norm().max(SHORT);
+        let a = if first > 0.0 { (end(first, first - part) + short).min(last) } else { 0.0 };
+        let b = if last < 1.0 { (end(last, last + part) - short).max(first) } else { 1.0 };
         (b > a && (to - from).norm() * (b - a) > 1e-3)
             .then(|| self.track(Guide::Line { from: at(a), to: at(b) }))
     }
 
     /// Lines over parameter lines along u (0) or v (1), and over the rim.
-    fn parameters(&self, axis: usize) -> Result<Vec<Track>, String> {
+    fn parameters(&self, axis: usize, steps: &Steps) -> Result<Vec<Lane>, String> {
         let net = self.tree.net();
         let (range, (first, last)) = (self.rim.range(net, axis), self.rim.range(net, 1 - axis));
         let across = |k: usize| first + (last - first) * count(k) / count(ACROSS);
@@ -155,16 +192,14 @@ impl Lanes {
         for k in 0..ACROSS {
             sums.push(sums[k] + widest(k));
         }
-        let passes = self.passes(sums[ACROSS])?;
-        let track = |j: usize| {
-            let wanted = sums[ACROSS] * count(j) / count(passes);
+        let track = |wanted: f64| {
             let k = sums.partition_point(|s| *s < wanted).clamp(1, ACROSS);
             let width = sums[k] - sums[k - 1];
             let share = if width > 0.0 { ((wanted - sums[k - 1]) / width).clamp(0.0, 1.0) } else { 0.0 };
             let value = across(k - 1) + (across(k) - across(k - 1)) * share;
-            self.track(Guide::Over { axis, value, range, rim: self.rim })
+            Some(self.track(Guide::Over { axis, value, range, rim: self.rim }))
         };
-        Ok((0..=passes).map(track).collect())
+        steps.over(sums[ACROSS], &track)
     }
 
     /// The way from the end of one pass to the start of the next, along the surface.

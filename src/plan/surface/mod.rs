@@ -3,6 +3,7 @@
 //! [`family`] says what the passes of an operation are, [`spread`] how close straight ones lie, [`march`] where those run that
 //! bend, [`entry`] how the cutter comes onto the surface. Passes stay exact tracks: `lower` fits them.
 
+mod apart;
 mod entry;
 mod extent;
 mod family;
@@ -55,15 +56,13 @@ impl Planner<'_> {
         if surface.rough {
             self.material(surface, &name, &tree, origin);
         }
-        let (legs, band) = match (cutter.is_ball(), surface.spacing) {
-            (false, Spacing::Step(step)) => {
+        let shares = self.closer.of(self.cl.operations.len());
+        let (legs, band) = match cutter.is_ball() {
+            false => {
                 let (hull, band) = lanes::within(&cutter, surface.leave, surface.band);
-                (lanes::legs(surface, &tree, hull, step), band)
+                (lanes::legs(surface, &tree, (hull, &cutter), &shares), band)
             }
-            _ => {
-                let shares = self.closer.of(self.cl.operations.len());
-                (Family::new(surface, Arc::clone(&tree), radius, shares).legs(surface), surface.band)
-            }
+            true => (Family::new(surface, Arc::clone(&tree), radius, shares).legs(surface), surface.band),
         };
         let legs = match legs {
             Ok(legs) => legs,

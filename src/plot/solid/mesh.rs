@@ -42,8 +42,6 @@ const WITHIN: usize = 3;
 pub(in crate::plot) fn meshes(scene: &Scene<'_>, places: usize, measured: bool) -> Vec<Mesh> {
     scene
         .finished()
-        // What other cutters than balls leave is proven, and not yet told place by place.
-        .filter(|(.., finish)| !measured || finish.cutter.is_ball())
         .map(|(index, operation, finish)| {
             let own = scene.strokes.iter().zip(&scene.moves);
             let own = own.filter(|(s, _)| measured && s.operation.is_some_and(|o| o as usize == index));

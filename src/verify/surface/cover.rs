@@ -114,8 +114,8 @@ impl Tile<'_> {
 }
 
 /// Cusps are asked to be lower by a little more than what was too much, and by no more than this at once.
-const SURE: f64 = 0.995;
-const STEEPEST: f64 = 0.5;
+pub(super) const SURE: f64 = 0.995;
+pub(super) const STEEPEST: f64 = 0.5;
 
 /// Ridges may be higher than asked for by this share: the accuracy to which the path's own deviation beside them is told.
 const CUSP_SLACK: f64 = 0.005;

@@ -75,7 +75,7 @@ pub(super) fn all(case: &Case<'_>) -> (Vec<Finding>, Vec<Proof>) {
                 let cover = if finish.cutter.is_ball() {
                     cover::check((index, operation), finish, &swept.passes, &mut findings)
                 } else {
-                    remains::check(finish, &swept.passes)
+                    remains::check((index, operation), finish, &swept.passes, &mut findings)
                 };
                 Found::Finished(proof(finish, &swept, &cover))
             }

@@ -3,6 +3,7 @@
 use super::Swept;
 use super::field::Field;
 use super::moves::{chords, raised};
+use super::remains;
 use crate::cl::{Finish, Operation};
 use crate::readback::TraceMove;
 use crate::verify::Placed;
@@ -27,8 +28,17 @@ pub struct Left {
 pub struct Remaining<'a> {
     /// Heights up to here are found among the moves close by.
     little: f64,
-    field: Field<'a>,
+    field: Swath<'a>,
 }
+
+/// Moves by place, of a ball or of another cutter.
+enum Swath<'a> {
+    Ball(Field<'a>),
+    Other(remains::Field<'a>),
+}
+
+/// Cutters that are no balls may have gone so deep, mm; deeper is told as this.
+const DEEPEST: f64 = 1.0;
 
 impl Sweep {
     /// Moves of the read-back text, each with its line.
@@ -53,7 +63,13 @@ impl<'a> Remaining<'a> {
     /// Heights of up to `little` (mm) are told quickly; more is told up to where no move comes near.
     #[must_use]
     pub fn new(operation: &Operation, sweep: &'a Sweep, little: f64) -> Remaining<'a> {
-        Remaining { little, field: Field::new(operation, &sweep.finish, &sweep.moves, (little, 1.0)) }
+        let (finish, moves) = (&sweep.finish, &sweep.moves);
+        let field = if finish.cutter.is_ball() {
+            Swath::Ball(Field::new(operation, finish, moves, (little, 1.0)))
+        } else {
+            Swath::Other(remains::Field::new(finish, moves, None))
+        };
+        Remaining { little, field }
     }
     /// What is told quickly, mm.
     #[must_use]
@@ -63,8 +79,13 @@ impl<'a> Remaining<'a> {
     /// What is left at a place of a patch; `None` where the surface has no normal or no move comes near.
     #[must_use]
     pub fn at(&self, patch: usize, uv: [f64; 2], near: &mut Vec<u32>) -> Option<Left> {
-        let close = self.field.lowest(patch, uv, self.little, near).filter(|(h, _)| *h <= self.little);
-        let (height, swept) = close.or_else(|| self.field.lowest(patch, uv, self.field.radius, near))?;
+        let (height, swept) = match &self.field {
+            Swath::Ball(field) => {
+                let close = field.lowest(patch, uv, self.little, near).filter(|(h, _)| *h <= self.little);
+                close.or_else(|| field.lowest(patch, uv, field.radius, near))
+            }
+            Swath::Other(field) => field.lowest(patch, uv, DEEPEST, near),
+        }?;
         Some(Left { height, line: swept.line })
     }
 }

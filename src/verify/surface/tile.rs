@@ -63,7 +63,7 @@ impl Field<'_> {
 }
 
 /// Bounds of the second derivatives of a piece, mm per square of the whole patch's parameters.
-struct Bend {
+pub(super) struct Bend {
     uu: f64,
     uv: f64,
     vv: f64,
@@ -72,7 +72,7 @@ struct Bend {
 }
 
 impl Bend {
-    fn new(piece: &Patch, tiles: u32) -> Bend {
+    pub(super) fn new(piece: &Patch, tiles: u32) -> Bend {
         let scale = f64::from(tiles);
         let [u, v] = [piece.hodograph(0), piece.hodograph(1)];
         let most =
@@ -88,8 +88,12 @@ impl Bend {
         }
     }
     /// How far the cell may lie from the hull of its corners, mm.
-    fn sagitta(&self, du: f64, dv: f64) -> f64 {
+    pub(super) fn sagitta(&self, du: f64, dv: f64) -> f64 {
         (self.uu * du * du + 2.0 * self.uv * du * dv + self.vv * dv * dv) / 8.0
+    }
+    /// Largest lengths of a cell, mm.
+    pub(super) fn size(&self, du: f64, dv: f64) -> [f64; 2] {
+        [self.u * du, self.v * dv]
     }
 }
 
@@ -120,7 +124,7 @@ impl Tile<'_> {
     fn cell(&mut self, bend: &Bend, cell: &Cell) -> Option<(usize, Option<u32>)> {
         self.cells += 1;
         let (du, dv) = (cell.u.1 - cell.u.0, cell.v.1 - cell.v.0);
-        let size = [bend.u * du, bend.v * dv];
+        let size = bend.size(du, dv);
         let axis = usize::from(size[1] > size[0]);
         if size[0].max(size[1]) > 0.25 * self.field.radius {
             return Some((axis, None));

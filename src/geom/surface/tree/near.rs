@@ -4,11 +4,9 @@
 
 use super::search::{Aim, Search, solve};
 use super::{Foot, SurfaceTree};
-use crate::geom::extremum::Section;
-use crate::geom::surface::cutter::Cutter;
+use crate::geom::surface::cutter::{Cutter, length};
 use crate::geom::surface::patch::SurfaceJet;
 use crate::geom::{Point3, Vec3};
-use crate::math;
 
 /// A core on its way; scores are distances with the sign turned.
 struct Sweep<'a> {
@@ -26,30 +24,57 @@ struct Nearest {
     normal: Vec3,
 }
 
+/// Rounds in which the nearest place of a way is found, at most.
+const ROUNDS: u32 = 60;
+/// Distances that agree so well are the same, mm.
+const SAME: f64 = 1e-12;
+
 impl Sweep<'_> {
+    fn at(&self, offset: Vec3, share: f64) -> Nearest {
+        let q = offset - self.way * share;
+        let (distance, normal) = self.cutter.outside_core(q);
+        Nearest { share, q, distance, normal }
+    }
+
+    /// The distance is convex along the way, with the slope -n·way: where that changes its sign, by the rule of false
+    /// position (with Illinois' weights), until the tangents at both sides leave nothing below.
     fn nearest(&self, q: Point3) -> Nearest {
         let offset = q - self.from;
-        let at = |share: f64| {
-            let q = offset - self.way * share;
-            (self.cutter.outside_core(q), q)
-        };
-        let share = if self.way.norm_squared() > 0.0 { lowest(&|s| at(s).0.0) } else { 0.0 };
-        let ((distance, normal), q) = at(share);
-        Nearest { share, q, distance, normal }
+        let slope = |near: &Nearest| -near.normal.dot(&self.way);
+        let mut a = self.at(offset, 0.0);
+        let mut low = slope(&a);
+        if low >= 0.0 {
+            return a;
+        }
+        let mut b = self.at(offset, 1.0);
+        let mut high = slope(&b);
+        if high <= 0.0 {
+            return b;
+        }
+        let (mut weights, mut moved) = ((-low, high), false);
+        for _ in 0..ROUNDS {
+            let width = b.share - a.share;
+            let crossing = a.distance + low * (b.distance - a.distance - high * width) / (low - high);
+            if a.distance.min(b.distance) - crossing <= SAME {
+                break;
+            }
+            let middle = self.at(offset, a.share + width * (weights.0 / (weights.0 + weights.1)));
+            let bend = slope(&middle);
+            if bend < 0.0 {
+                weights = (-bend, if moved { 0.5 * weights.1 } else { high });
+                (a, low, moved) = (middle, bend, true);
+            } else {
+                weights = (if moved { -low } else { 0.5 * weights.0 }, bend);
+                (b, high, moved) = (middle, bend, false);
+            }
+        }
+        if a.distance <= b.distance { a } else { b }
     }
 
     /// Support function of the swept core.
     fn support(&self, n: Vec3) -> f64 {
         self.cutter.core_support(n) + n.dot(&self.from.coords) + n.dot(&self.way).max(0.0)
     }
-}
-
-/// Where a convex function is lowest between 0 and 1.
-fn lowest(f: &dyn Fn(f64) -> f64) -> f64 {
-    const ROUNDS: usize = 34;
-    let (a, b) = Section::about_maximum(|s| -f(s), (0.0, 1.0), ROUNDS).ends;
-    let middle = 0.5 * (a + b);
-    [0.0, 1.0].into_iter().fold(middle, |best, end| if f(end) < f(best) { end } else { best })
 }
 
 impl Aim for Sweep<'_> {
@@ -60,7 +85,7 @@ impl Aim for Sweep<'_> {
         let along = (middle.x - axis.x) * self.way.x + (middle.y - axis.y) * self.way.y;
         let share = if flat > 0.0 { (along / flat).clamp(0.0, 1.0) } else { 0.0 };
         let off = middle - axis - self.way * share;
-        let beside = math::hypot(off.x, off.y);
+        let beside = length(off.x, off.y);
         let e = if beside > 0.0 { [off.x / beside, off.y / beside] } else { [1.0, 0.0] };
         let bound = |[across, up]: [f64; 2]| {
             let n = Vec3::new(across * e[0], across * e[1], up);
@@ -82,6 +107,16 @@ impl Aim for Sweep<'_> {
     fn radial(&self, q: Point3, n: Vec3) -> Option<Vec3> {
         let near = self.nearest(q);
         super::rest::radial([near.q.x, near.q.y], n)
+    }
+    fn along_rim(&self, q: Point3) -> Option<Vec3> {
+        let near = self.nearest(q);
+        if near.share <= 0.0 || near.share >= 1.0 {
+            return None;
+        }
+        let e = Vec3::new(near.q.x, near.q.y, 0.0).try_normalize(0.0)?;
+        let n = (e * self.way.z - Vec3::z() * e.dot(&self.way)).try_normalize(1e-9)?;
+        let n = if n.z < 0.0 { -n } else { n };
+        (n.dot(&e) <= 0.0).then_some(n)
     }
     fn plane(&self, n: Vec3) -> Option<(f64, f64)> {
         Some((1.0, self.support(-n)))
@@ -127,6 +162,28 @@ impl Cutter {
     pub fn outside(&self, (from, to): (Point3, Point3), q: Point3) -> (f64, Vec3) {
         let near = Sweep { cutter: self, from, way: to - from }.nearest(q);
         (near.distance - self.corner(), near.normal)
+    }
+
+    /// How far a point must go along `n` to enter this cutter on its way, from `start` on; infinite where it does not
+    /// within `most` mm.
+    #[must_use]
+    pub fn enters(&self, way: (Point3, Point3), (p, n): (Point3, Vec3), (start, most): (f64, f64)) -> f64 {
+        const STEPS: u32 = 60;
+        const TOUCHES: f64 = 1e-8;
+        let mut t = start;
+        for _ in 0..STEPS {
+            let (d, normal) = self.outside(way, p + n * t);
+            if d <= TOUCHES {
+                return t + TOUCHES;
+            }
+            let rate = normal.dot(&n);
+            // The distance is convex along the normal: its tangent never leads into the cutter.
+            if rate > -1e-6 || t > start + most {
+                return f64::INFINITY;
+            }
+            t -= d / rate;
+        }
+        f64::INFINITY
     }
 }
 

@@ -2,11 +2,10 @@
 
 use super::search::{Aim, NOTHING, Search, solve};
 use super::{Foot, SurfaceTree};
-use crate::geom::surface::cutter::Cutter;
+use crate::geom::surface::cutter::{Cutter, length};
 use crate::geom::surface::drop::Contact;
 use crate::geom::surface::patch::SurfaceJet;
 use crate::geom::{Point3, Vec3};
-use crate::math;
 
 /// Accuracy of the height, mm.
 const ACCURACY: f64 = 1e-9;
@@ -28,18 +27,18 @@ impl Lowering<'_> {
 impl Aim for Lowering<'_> {
     fn in_box(&self, low: [f64; 3], high: [f64; 3]) -> f64 {
         let beyond = |i: usize| (low[i] - self.at[i]).max(self.at[i] - high[i]).max(0.0);
-        let profile = self.cutter.profile(math::hypot(beyond(0), beyond(1)));
+        let profile = self.cutter.profile(length(beyond(0), beyond(1)));
         profile.map_or(f64::NEG_INFINITY, |p| high[2] - p.height)
     }
     fn score(&self, q: Point3) -> f64 {
         let [x, y] = self.beside(q);
-        let beside = math::hypot(x, y);
+        let beside = length(x, y);
         // Beside the cutter, what is nearer is the better.
         self.cutter.profile(beside).map_or(10.0 * NOTHING - beside, |p| q.z - p.height)
     }
     fn facing(&self, q: Point3) -> Option<Vec3> {
         let [x, y] = self.beside(q);
-        let beside = math::hypot(x, y);
+        let beside = length(x, y);
         let [across, up] = self.cutter.profile(beside)?.normal;
         let e = if beside > 0.0 { [x / beside, y / beside] } else { [1.0, 0.0] };
         Some(Vec3::new(-across * e[0], -across * e[1], -up))
@@ -61,14 +60,14 @@ impl Lowering<'_> {
     /// Towards the highest point under the cutter's flat.
     fn to_summit(&self, jet: &SurfaceJet) -> Option<[f64; 2]> {
         let [x, y] = self.beside(jet.p);
-        let flat = self.cutter.disc();
+        let flat = self.cutter.flat();
         let curved = jet.uu.z < 0.0 && jet.uu.z * jet.vv.z > jet.uv.z * jet.uv.z;
-        if !curved || math::hypot(x, y) >= flat {
+        if !curved || length(x, y) >= flat {
             return None;
         }
         let step = solve([[jet.uu.z, jet.uv.z], [jet.uv.z, jet.vv.z]], [-jet.u.z, -jet.v.z])?;
         let after = [x + jet.u.x * step[0] + jet.v.x * step[1], y + jet.u.y * step[0] + jet.v.y * step[1]];
-        (math::hypot(after[0], after[1]) < flat).then_some(step)
+        (length(after[0], after[1]) < flat).then_some(step)
     }
 
     /// The corner touches where its normal is the surface's: the plan normal points to the axis, and the distance
@@ -78,10 +77,10 @@ impl Lowering<'_> {
         let (w, sense) = if w.z < 0.0 { (-w, -1.0) } else { (w, 1.0) };
         let size = w.norm();
         let n = w / size;
-        let m = math::hypot(n.x, n.y);
-        let (disc, r) = (self.cutter.disc(), self.cutter.corner());
+        let m = length(n.x, n.y);
+        let (disc, r) = (self.cutter.flat(), self.cutter.corner());
         let [x, y] = self.beside(jet.p);
-        let beside = math::hypot(x, y);
+        let beside = length(x, y);
         if size.is_nan() || size <= 0.0 || beside <= 0.0 {
             return None;
         }
@@ -101,7 +100,7 @@ impl Lowering<'_> {
 
 /// Newton's step for two equations in different units.
 fn scaled(a: [f64; 2], b: [f64; 2], off: [f64; 2]) -> Option<[f64; 2]> {
-    let size = math::hypot(a[1], b[1]);
+    let size = length(a[1], b[1]);
     if size.is_nan() || size <= 0.0 {
         return None;
     }
@@ -110,7 +109,7 @@ fn scaled(a: [f64; 2], b: [f64; 2], off: [f64; 2]) -> Option<[f64; 2]> {
 
 /// The unit vector in the plane of z and a horizontal direction that is nearest to `n`; it does not point outwards.
 pub(super) fn radial([x, y]: [f64; 2], n: Vec3) -> Option<Vec3> {
-    let beside = math::hypot(x, y);
+    let beside = length(x, y);
     let e = [x / beside, y / beside];
     let across = (n.x * e[0] + n.y * e[1]).min(0.0);
     Vec3::new(across * e[0], across * e[1], n.z).try_normalize(1e-9)

@@ -23,6 +23,11 @@ pub(super) trait Aim {
     fn facing(&self, q: Point3) -> Option<Vec3>;
     /// The normal in the plane through the tool's axis and a point that is nearest to `n`.
     fn radial(&self, q: Point3, n: Vec3) -> Option<Vec3>;
+    /// The normal of the plane that touches the tool on its way along a rim which faces a point; `None` where there is no such
+    /// plane, or many.
+    fn along_rim(&self, _q: Point3) -> Option<Vec3> {
+        None
+    }
     /// (k, c) such that no point q scores more than k (n·q + c), for a unit vector `n` into the tool.
     fn plane(&self, n: Vec3) -> Option<(f64, f64)>;
     /// Newton's step in the patch's parameters towards the best place.
@@ -193,12 +198,13 @@ impl<'a, A: Aim> Search<'a, A> {
         if bound <= limit {
             return None;
         }
-        let mut planes = [None; 4];
+        let mut planes = [None; 5];
         for (k, plane) in planes.iter_mut().enumerate() {
             let normal = match k {
                 0 => self.aim.facing(jet.p),
                 1 => jet.normal(),
                 2 => self.facing,
+                3 => self.aim.along_rim(jet.p),
                 _ => jet.normal().and_then(|n| self.aim.radial(jet.p, n)),
             };
             *plane = normal.and_then(|n| Some((n, self.aim.plane(n)?)));
