@@ -131,7 +131,7 @@ pub(super) const ALONG: Choices = choices(
 
 const SURFAC: &[Form] = &[form(
     "net",
-    "passes of a ball-end cutter over a net",
+    "passes of a cutter over a net",
     &[value("net", Kind::Entity(&[EntityKind::Net]), "the net")],
     &[
         ORDER,

@@ -7,7 +7,7 @@
 use rayon::prelude::*;
 
 use crate::geom::surface::{Contact, Cutter, Track};
-use crate::geom::Vec3;
+use crate::geom::{Point3, Vec3};
 use crate::math::count;
 use crate::plan::closer::Shares;
 
@@ -125,7 +125,11 @@ impl Apart {
             }
             let share = (0.5 * (1.0 + HIGH) * AIM * self.cusp / ridge.max(1e-9)).clamp(0.0, 8.0);
             let wanted = step * crate::math::pow(share, 0.6).clamp(0.2, 2.0);
-            step = if bad.is_finite() { wanted.clamp(0.9 * good + 0.1 * bad, 0.1 * good + 0.9 * bad) } else { wanted };
+            step = if bad.is_finite() {
+                wanted.clamp(0.9 * good + 0.1 * bad, 0.1 * good + 0.9 * bad)
+            } else {
+                wanted
+            };
             step = step.min(rest);
             if *spent > MOST {
                 return Err(format!("this height of cusps asks for too many passes: {}", self.place(last)));
@@ -142,7 +146,10 @@ impl Apart {
     fn place(&self, lane: &Lane) -> String {
         let middle = lane.stations.get(lane.stations.len() / 2).and_then(|s| s.contact);
         middle.map_or_else(String::new, |c| {
-            format!("they would lie {:.3} mm or less apart about X {:.3}, Y {:.3} mm", CLOSEST, c.centre.x, c.centre.y)
+            format!(
+                "they would lie {:.3} mm or less apart about X {:.3}, Y {:.3} mm",
+                CLOSEST, c.centre.x, c.centre.y
+            )
         })
     }
 
@@ -201,11 +208,7 @@ impl Apart {
             *spent += lane.stations.len();
             let left = |station: &Station| {
                 let touched = station.contact.map(|c| (c, self.normal(&lane.track, &c)));
-                let left = |t: &(Contact, Vec3)| {
-                    let left = self.left(a, t, station.share).min(self.left(b, t, station.share));
-                    left / self.shares.share(t.0.foot.point)
-                };
-                touched.as_ref().map_or(0.0, left)
+                touched.as_ref().map_or(0.0, |t| self.adds((a, b), t, station.share))
             };
             let here: Vec<f64> = lane.stations.par_iter().map(left).collect();
             highest = here.into_iter().fold(highest, f64::max);
@@ -214,6 +217,23 @@ impl Apart {
             }
         }
         highest
+    }
+
+    /// What two passes leave on a point that the cutter touches between them, above what it leaves there itself: at an edge
+    /// it may lean on that with its side.
+    fn adds(&self, (a, b): (&Lane, &Lane), touched: &(Contact, Vec3), share: f64) -> f64 {
+        let (centre, ray) = (touched.0.centre, (touched.0.foot.point, touched.1));
+        let own = self.leaves((centre, centre), ray);
+        if !own.is_finite() {
+            return 0.0;
+        }
+        let left = self.left(a, touched, share).min(self.left(b, touched, share));
+        (left - own) / self.shares.share(touched.0.foot.point)
+    }
+
+    /// What the cutter on its way leaves on a point.
+    fn leaves(&self, way: (Point3, Point3), ray: (Point3, Vec3)) -> f64 {
+        self.bare.enters(way, ray, (self.by, 2.0 * self.hull.radius())) - self.by
     }
 
     /// The surface's normal where the cutter touches it, be it at an edge.
@@ -239,11 +259,10 @@ impl Apart {
             nearest += 1;
         }
         let ray = (touched.foot.point, *normal);
-        let most = 2.0 * self.hull.radius();
         let part = |k: usize| {
             let at = |k: usize| Some(lane.stations.get(k)?.contact?.centre);
             let (Some(from), Some(to)) = (at(k), at(k + 1)) else { return f64::INFINITY };
-            self.bare.enters((from, to), ray, (self.by, most)) - self.by
+            self.leaves((from, to), ray)
         };
         let parts = nearest.saturating_sub(AROUND)..(nearest + AROUND).min(last);
         parts.map(part).fold(f64::INFINITY, f64::min)

@@ -61,9 +61,13 @@ pub(super) fn legs(
     let lanes = Lanes { tree: Arc::clone(tree), cutter: hull, rim: Rim::new(tree.net(), &hull) };
     let apart = match surface.spacing {
         Spacing::Step(step) => Steps::Even(step),
-        Spacing::Cusp(cusp) => {
-            Steps::Apart(Apart { hull, bare: *bare, by: hull.corner() - bare.corner(), cusp, shares: shares.clone() })
-        }
+        Spacing::Cusp(cusp) => Steps::Apart(Apart {
+            hull,
+            bare: *bare,
+            by: hull.corner() - bare.corner(),
+            cusp,
+            shares: shares.clone(),
+        }),
     };
     let mut tracks = match surface.along {
         Along::X => lanes.lines(0, &apart)?,

@@ -1,4 +1,4 @@
-//! Finishing of surfaces: passes of a ball-end cutter over a net.
+//! Finishing of surfaces: passes of a cutter over a net.
 //!
 //! [`family`] says what the passes of an operation are, [`spread`] how close straight ones lie, [`march`] where those run that
 //! bend, [`entry`] how the cutter comes onto the surface. Passes stay exact tracks: `lower` fits them.

@@ -23,8 +23,8 @@ use crate::cl::{Finish, Operation};
 use crate::diag::codes::verification as codes;
 use crate::geom::surface::{Cutter, Patch};
 use crate::geom::{Point3, Vec2, Vec3};
-use crate::verify::{ACCURACY, Shortfall};
 use crate::verify::finding::{Finding, Text};
+use crate::verify::{ACCURACY, Shortfall};
 
 /// Heights below this need not be told apart, mm, where nobody said how much may be left.
 const FLOOR: f64 = 0.02;
@@ -224,8 +224,9 @@ impl<'a> Field<'a> {
         let longest = usize::from(size[1] > size[0]);
         let last = last || size[longest] < SMALLEST;
         let unknown = |near: &[u32]| Judged { most: f64::INFINITY, best: None, near: near.to_vec() };
-        let corners = [(cell.u.0, cell.v.0), (cell.u.0, cell.v.1), (cell.u.1, cell.v.0), (cell.u.1, cell.v.1)]
-            .map(|(u, v)| Corner::new(patch, u, v));
+        let corners =
+            [(cell.u.0, cell.v.0), (cell.u.0, cell.v.1), (cell.u.1, cell.v.0), (cell.u.1, cell.v.1)]
+                .map(|(u, v)| Corner::new(patch, u, v));
         let ([Some(a), Some(b), Some(c), Some(d)], Some(middle)) =
             (corners, Corner::new(patch, middle(cell.u), middle(cell.v)))
         else {
@@ -293,7 +294,8 @@ impl<'a> Field<'a> {
         let cutter = self.finish.cutter.grown(self.finish.leave);
         let beside = cutter.touches_beside(Vec2::new(at.n.x, at.n.y));
         let left = |share: f64| {
-            let rest = cutter.drop(&self.finish.tree, at.p.x + share * beside.x, at.p.y + share * beside.y, None)?;
+            let rest =
+                cutter.drop(&self.finish.tree, at.p.x + share * beside.x, at.p.y + share * beside.y, None)?;
             let stands = Swept { from: rest.centre, to: rest.centre, line: 0, block: None };
             Some(self.height((&self.finish.cutter, 0.0), &stands, at, self.finish.leave))
         };

@@ -124,12 +124,13 @@ fn a_ball_that_does_not_fit_is_lifted_and_says_what_stays() {
     assert!(proof.unreachable.expect("material stays").value > 0.05);
 }
 
-/// Codes that come when every pass's vertex number `n` is moved in z by `steps` of the grid.
-fn bent(build: &Build, n: usize, steps: i64) -> Vec<&'static str> {
+/// Codes that come when some vertices of passes, by their number, are moved in z by so many steps of the grid.
+fn bent(build: &Build, moved: &[(usize, i64)]) -> Vec<&'static str> {
     let (cl, mut target) =
         (build.cl.as_ref().expect("CL"), build.outputs[0].target.clone().expect("a target"));
-    let vertex = passes(cl, &mut target).nth(n).expect("a vertex");
-    *vertex += steps;
+    for (n, steps) in moved {
+        *passes(cl, &mut target).nth(*n).expect("a vertex") += steps;
+    }
     let dialect = load("linuxcnc", &MemoryFiles::default(), &mut SourceMap::default()).expect("a post");
     let written = write(&dialect, &target, &cl.origins).expect("a text");
     let emitted = Emitted { text: written.text, lines: written.lines };
@@ -152,8 +153,8 @@ fn passes<'t>(cl: &'t Cl, target: &'t mut TargetProgram) -> impl Iterator<Item =
 fn a_vertex_too_deep_or_too_high_is_found() {
     let build = build("ZIGZAG, U, CUSP, 0.02");
     for n in [5, 60, 150] {
-        assert!(bent(&build, n, -200).contains(&"E0820"), "{n}");
-        assert!(bent(&build, n, 200).contains(&"E0821"), "{n}");
+        assert!(bent(&build, &[(n, -200)]).contains(&"E0820"), "{n}");
+        assert!(bent(&build, &[(n, 200)]).contains(&"E0821"), "{n}");
     }
 }
 
@@ -173,12 +174,63 @@ fn cutters_with_a_flat_or_a_cone_keep_their_band() {
             );
             assert!(proof.out.value > 0.005 && proof.cusp.is_none(), "{cutter} {along}: {proof:?}");
             assert!(proof.left.value <= proof.left_bound, "{cutter} {along}: {proof:?}");
-            for n in [3, 20] {
-                assert!(bent(&build, n, -400).contains(&"E0820"), "{cutter} {along} {n}");
-                assert!(bent(&build, n, 600).contains(&"E0821"), "{cutter} {along} {n}");
+            for (low, high) in [(3, 20), (20, 3)] {
+                let found = bent(&build, &[(low, -400), (high, 600)]);
+                assert!(
+                    found.contains(&"E0820") && found.contains(&"E0821"),
+                    "{cutter} {along} {low}: {found:?}"
+                );
             }
         }
     }
+}
+
+/// A small crown, finished with another cutter than a ball.
+fn crowned(cutter: &str, operation: &str) -> Build {
+    let net = "N1 = NET/ 3, 3, (0, 0, 0), (0, 7, 2), (0, 14, 1), (9, 0, 2), (9, 7, 5), (9, 14, 2), \
+               (18, 0, 0), (18, 7, 3), (18, 14, 1)\n";
+    let text = program(operation).replace("BALL, 6", cutter);
+    let (from, to) = (text.find("N1 =").expect("a net"), text.find("T1 =").expect("a cutter"));
+    let mut files = MemoryFiles::default();
+    files.0.insert("part.apt".to_owned(), format!("{}{net}{}", &text[..from], &text[to..]));
+    driver::build("part.apt", &files, &Options::default())
+}
+
+#[test]
+fn cutters_with_a_flat_or_a_cone_keep_the_height_of_cusps() {
+    for (cutter, along) in [("FLAT, 6", "X"), ("BULL, 6, 1", "U"), ("TAPER, 4, 0.5, ANGLE, 6", "V")] {
+        let [coarse, fine] = ["0.1", "0.05"].map(|h| {
+            let build = crowned(cutter, &format!("ZIGZAG, {along}, CUSP, {h}"));
+            assert!(!build.has_errors(), "{cutter} {along}: {:#?}", build.diagnostics);
+            proof(&build)
+        });
+        for (proof, h) in [(&coarse, 0.1), (&fine, 0.05)] {
+            assert!(
+                proof.left_bound <= h + 0.01 + 1e-5 && proof.left.value > 0.5 * h,
+                "{cutter} {along}: {proof:?}"
+            );
+            assert!(
+                proof.left.value <= proof.left_bound && proof.unreachable.is_none(),
+                "{cutter} {along}: {proof:?}"
+            );
+        }
+        assert!(fine.passes > coarse.passes * 5 / 4, "{cutter} {along}: {} {}", fine.passes, coarse.passes);
+    }
+}
+
+#[test]
+fn passes_that_lie_too_far_apart_for_their_cusps_are_found() {
+    let build = crowned("BULL, 6, 1", "ZIGZAG, Y, CUSP, 0.05");
+    let (mut cl, target) =
+        (build.cl.clone().expect("CL"), build.outputs[0].target.clone().expect("a target"));
+    let finish = cl.operations[0].guard.surface.as_mut().expect("a surface");
+    finish.cusp = Some(0.02);
+    let dialect = load("linuxcnc", &MemoryFiles::default(), &mut SourceMap::default()).expect("a post");
+    let written = write(&dialect, &target, &cl.origins).expect("a text");
+    let emitted = Emitted { text: written.text, lines: written.lines };
+    let mut sink = Sink::default();
+    assert!(prove(&cl, &target, emitted, dialect.control(), &mut sink).is_none());
+    assert!(sink.items().iter().all(|d| d.code.id == "E0821"), "{:#?}", sink.items());
 }
 
 /// A hollow, roughed from a block with its top at `top` and so much beyond the net.
