@@ -199,12 +199,12 @@ fn crowned(cutter: &str, operation: &str) -> Build {
 #[test]
 fn cutters_with_a_flat_or_a_cone_keep_the_height_of_cusps() {
     for (cutter, along) in [("FLAT, 6", "X"), ("BULL, 6, 1", "U"), ("TAPER, 4, 0.5, ANGLE, 6", "V")] {
-        let [coarse, fine] = ["0.1", "0.05"].map(|h| {
+        let [coarse, fine] = ["0.2", "0.1"].map(|h| {
             let build = crowned(cutter, &format!("ZIGZAG, {along}, CUSP, {h}"));
             assert!(!build.has_errors(), "{cutter} {along}: {:#?}", build.diagnostics);
             proof(&build)
         });
-        for (proof, h) in [(&coarse, 0.1), (&fine, 0.05)] {
+        for (proof, h) in [(&coarse, 0.2), (&fine, 0.1)] {
             assert!(
                 proof.left_bound <= h + 0.01 + 1e-5 && proof.left.value > 0.5 * h,
                 "{cutter} {along}: {proof:?}"
