@@ -220,6 +220,8 @@ pub struct Pass {
     pub tip: f64,
     /// How far into the surface and out of it the path may be, as seen by the cutter: about the track's own hull.
     pub band: Band,
+    /// It is the way from one pass to the next.
+    pub link: bool,
     /// How far the path may be to the side of the track, mm, at equidistant parameters from 0 to 1: what the distance
     /// to its neighbours leaves. Empty: as far as it likes.
     pub room: Vec<f64>,

@@ -5,10 +5,11 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use super::march;
+use super::outline::{self, Rim};
 use super::ridge::Target;
 use super::spread::{self, COLUMNS, Line};
 use crate::geom::surface::{Contact, Cutter, Guide, SurfaceTree, Track, drop_ball};
-use crate::geom::{Point2, Point3, Vec3};
+use crate::geom::{Point2, Vec3};
 use crate::ir::{Along, Spacing, Surface};
 use crate::math::count;
 use crate::plan::closer::Shares;
@@ -22,6 +23,8 @@ pub(super) struct Leg {
     pub track: Track,
     /// As [`crate::cl::Pass::room`].
     pub room: Vec<f64>,
+    /// As [`crate::cl::Pass::link`].
+    pub link: bool,
     pub last: bool,
 }
 
@@ -48,23 +51,6 @@ enum Kind {
     Line(Rim),
 }
 
-/// The edges of the surface as plan passes along an axis (0: x) see them.
-#[derive(Debug)]
-pub(super) struct Rim {
-    pub axis: usize,
-    pub places: Vec<RimPlace>,
-    /// The centres in plan: the outline of the offset surface.
-    outline: Vec<Point2>,
-}
-
-/// A place on an edge, with the centre of the ball that touches there.
-#[derive(Debug)]
-pub(super) struct RimPlace {
-    pub point: Point3,
-    pub normal: Vec3,
-    pub centre: Point3,
-}
-
 /// How far a plan pass goes on beyond the outline of the offset surface, mm.
 const BEYOND: f64 = 0.005;
 /// Plan passes begin so far inside the outline, as a share of the ball's radius: what that leaves is far below a
@@ -72,8 +58,6 @@ const BEYOND: f64 = 0.005;
 const INSET: f64 = 0.005;
 /// Passes that end and begin farther apart than so many radii are joined above the surface.
 const LINK: f64 = 6.0;
-/// Outline points on an edge of a patch.
-const EDGE: u32 = 400;
 
 impl Family {
     /// The passes of an operation; those that bend as if they ran along u.
@@ -130,9 +114,9 @@ impl Family {
     pub(super) fn across(&self) -> (f64, f64) {
         match &self.kind {
             Kind::Parameter(axis) => (0.0, count(self.tree.net().size()[1 - axis])),
-            Kind::Line(Rim { axis, outline, .. }) => {
+            Kind::Line(rim) => {
                 // At its very border the outline has no length.
-                let (a, b) = range(outline.iter().map(|p| p[1 - axis]));
+                let (a, b) = rim.width();
                 let inset = (INSET * self.ball).min(0.1 * (b - a));
                 (a + inset, b - inset)
             }
@@ -168,8 +152,8 @@ impl Family {
     pub(super) fn along(&self, across: f64) -> Option<(f64, f64)> {
         match &self.kind {
             Kind::Parameter(axis) => Some((0.0, count(self.tree.net().size()[*axis]))),
-            Kind::Line(Rim { axis, outline, .. }) => {
-                let (a, b) = crossings(outline, *axis, across)?;
+            Kind::Line(rim) => {
+                let (a, b) = rim.crossings(across)?;
                 Some((a - BEYOND, b + BEYOND))
             }
         }
@@ -193,73 +177,108 @@ impl Family {
         Track { tree: Arc::clone(&self.tree), radius, cutter, guide }
     }
 
-    /// The track of pass `k` of those at `places`; none where the line meets no surface, several where it leaves it in
-    /// between. A plan pass goes on, around the surface's edge, as far as its neighbours do: beside their ends nothing else
-    /// cuts the edge.
-    fn pass(&self, places: &[f64], k: usize) -> Vec<Track> {
-        let Some(across) = places.get(k).copied() else { return Vec::new() };
-        let Some((mut a, mut b)) = self.along(across) else { return Vec::new() };
-        for near in [k.checked_sub(1), Some(k + 1)].into_iter().flatten() {
-            if let Some((c, d)) = places.get(near).and_then(|w| self.along(*w)) {
-                (a, b) = (a.min(c), b.max(d));
-            }
-        }
-        match &self.kind {
-            Kind::Parameter(axis) => vec![self.parameter_track(*axis, across, (a, b))],
-            Kind::Line(Rim { axis: 0, .. }) => self.lines(Point2::new(a, across), Point2::new(b, across)),
-            Kind::Line(..) => self.lines(Point2::new(across, a), Point2::new(across, b)),
-        }
-    }
-
-    /// A plan line, cut to where the ball rests.
-    fn lines(&self, from: Point2, to: Point2) -> Vec<Track> {
-        const CLOSE: f64 = 1e-3;
-        let length = (to - from).norm();
-        if length.is_nan() || length <= CLOSE {
-            return Vec::new();
-        }
-        let held = self.held(from, to);
-        let parts = held.len() - 1;
-        let at = |share: f64| from + (to - from) * share;
-        let place = |k: usize| count(k) / count(parts);
-        // Where the ball begins to rest between a place where it does not and one where it does.
-        let edge = |mut off: f64, mut on: f64| {
-            while (on - off).abs() * length > CLOSE {
-                let middle = 0.5 * (off + on);
-                *(if self.rests(at(middle), None).is_some() { &mut on } else { &mut off }) = middle;
-            }
-            on
+    /// The stretches of plan pass `k` of those at `places`. A plan pass goes on, around the surface's edge, as far as its
+    /// neighbours do and the ball rests: beside their ends nothing else cuts the edge.
+    fn stretches(&self, rim: &Rim, places: &[f64], k: usize) -> Vec<(f64, f64)> {
+        let own = rim.inside(places[k]);
+        let beside = [k.checked_sub(1), Some(k + 1)].into_iter().flatten().filter_map(|i| places.get(i));
+        let all = beside.flat_map(|place| rim.inside(*place)).chain(own.iter().copied());
+        let wanted = outline::united(all.map(|(a, b)| (a - BEYOND, b + BEYOND)));
+        let at = |along: f64| rim.place(along, places[k]);
+        let reach = |from: f64, to: f64| {
+            let (a, b) = (at(from), at(to));
+            let share = if to == from { 1.0 } else { self.resting(a, b) };
+            from + (to - from) * share
         };
         let mut out = Vec::new();
-        let mut k = 0;
-        while k <= parts {
-            let end = (k..=parts).find(|i| !held[*i]).unwrap_or(parts + 1);
-            if end > k + 1 {
-                let start = if k == 0 { 0.0 } else { edge(place(k - 1), place(k)) };
-                let stop = if end > parts { 1.0 } else { edge(place(end), place(end - 1)) };
-                out.push(self.track(Guide::Line { from: at(start), to: at(stop) }));
+        for (low, high) in wanted {
+            let mut within = own.iter().filter(|o| o.0 >= low && o.1 <= high);
+            let Some(&(first, mut end)) = within.next() else { continue };
+            let mut start = reach(first, low);
+            for &(a, b) in within {
+                let on = if a - end <= LINK * self.ball { reach(end, a) } else { end };
+                if on < a {
+                    out.push((start, on));
+                    start = a;
+                }
+                end = b;
             }
-            k = end + 1;
+            out.push((start, reach(end, high)));
         }
         out
-    }
-
-    /// Whether the ball rests, at equal distances along a plan line.
-    fn held(&self, from: Point2, to: Point2) -> Vec<bool> {
-        const APART: f64 = 0.25;
-        let parts = ((to - from).norm() / (APART * self.ball)).clamp(32.0, 1024.0).ceil() as usize;
-        let mut hint: Option<Contact> = None;
-        let at = |k: usize| {
-            hint = self.rests(from + (to - from) * (count(k) / count(parts)), hint.as_ref());
-            hint.is_some()
-        };
-        (0..=parts).map(at).collect()
     }
 
     /// Where the ball rests over a place; `None` also where it would hang at the side of the surface.
     fn rests(&self, p: Point2, hint: Option<&Contact>) -> Option<Contact> {
         const HANGING: f64 = 0.01;
         drop_ball(&self.tree, self.ball, p.x, p.y, hint).filter(|c| c.normal.z > HANGING)
+    }
+
+    /// The share of a way in plan from its start on, along which the ball rests.
+    fn resting(&self, from: Point2, to: Point2) -> f64 {
+        const PART: f64 = 0.02;
+        const MOST: f64 = 4096.0;
+        const HALVINGS: u32 = 16;
+        let parts = ((to - from).norm() / (PART * self.ball)).ceil().clamp(1.0, MOST);
+        let mut hint = None;
+        let mut touches = |share: f64| {
+            let found = self.rests(from + (to - from) * share, hint.as_ref());
+            hint = found.or(hint);
+            found.is_some()
+        };
+        let mut k = 0.0;
+        while k < parts {
+            if !touches((k + 1.0) / parts) {
+                let (mut on, mut off) = (k / parts, (k + 1.0) / parts);
+                for _ in 0..HALVINGS {
+                    let middle = 0.5 * (on + off);
+                    if touches(middle) { on = middle } else { off = middle }
+                }
+                return on;
+            }
+            k += 1.0;
+        }
+        1.0
+    }
+
+    /// The tracks of pass `k` of those at `places`, with the range that each takes along.
+    fn tracks(&self, places: &[f64], k: usize) -> Vec<((f64, f64), Track)> {
+        match &self.kind {
+            Kind::Parameter(axis) => {
+                let range = (0.0, count(self.tree.net().size()[*axis]));
+                vec![(range, self.parameter_track(*axis, places[k], range))]
+            }
+            Kind::Line(rim) => {
+                let line = |(a, b): (f64, f64)| {
+                    let track = self.line(rim.place(a, places[k]), rim.place(b, places[k]))?;
+                    Some(((a, b), track))
+                };
+                self.stretches(rim, places, k).into_iter().filter_map(line).collect()
+            }
+        }
+    }
+
+    /// A plan line, cut back to where the ball rests at both ends.
+    fn line(&self, mut from: Point2, mut to: Point2) -> Option<Track> {
+        const TRIES: u32 = 40;
+        for _ in 0..TRIES {
+            let length = (to - from).norm();
+            if length.is_nan() || length <= 1e-3 {
+                return None;
+            }
+            let (a, b) = (self.rests(from, None).is_some(), self.rests(to, None).is_some());
+            if a && b {
+                return Some(self.track(Guide::Line { from, to }));
+            }
+            let step = (to - from) / length * (BEYOND.min(0.1 * length));
+            if !a {
+                from += step;
+            }
+            if !b {
+                to -= step;
+            }
+        }
+        None
     }
 
     /// The way from the end of one pass to the start of the next, along the surface.
@@ -276,10 +295,8 @@ impl Family {
                 ((ends[1] - ends[0]).norm() <= LINK * self.ball)
                     .then(|| self.track(Guide::Curve(Arc::new(way.to_vec()))))
             }
-            (Guide::Line { to: end, .. }, Guide::Line { from: start, .. }) => self
-                .held(*end, *start)
-                .iter()
-                .all(|held| *held)
+            (Guide::Line { to: end, .. }, Guide::Line { from: start, .. }) => (self.resting(*end, *start)
+                >= 1.0)
                 .then(|| self.track(Guide::Line { from: *end, to: *start })),
             _ => None,
         }
@@ -291,32 +308,42 @@ impl Family {
             let both = [self.along_axis(0), self.along_axis(1)];
             let (family, spread) = march::shortest(both, target, surface.along == Along::Const)?;
             let rooms = spread.rooms(target, true);
-            let leg = |s: &Stretch| {
-                let room = rooms[s.line][s.from..=s.to].to_vec();
-                (family.bent(&spread.lines[s.line], s), room)
+            let runs: Vec<Vec<(usize, usize)>> = spread.lines.iter().map(runs).collect();
+            let leg = |&(line, k): &(usize, usize)| {
+                let (from, to) = runs[line][k];
+                (family.bent(&spread.lines[line], (from, to)), rooms[line][from..=to].to_vec())
             };
-            return Ok(stretches(spread.lines.iter().enumerate().map(|(k, l)| runs(k, l)).collect())
+            // Runs that lie side by side have a column in common.
+            let ranges: Vec<Vec<(f64, f64)>> = runs
+                .iter()
+                .map(|line| line.iter().map(|(from, to)| (count(*from), count(to + 1))).collect())
+                .collect();
+            return Ok(outline::chained(&ranges)
                 .iter()
                 .map(|chain| chain.iter().map(leg).collect())
                 .collect());
         }
         let spread = spread::spread(self, target)?;
         let places: Vec<f64> = spread.lines.iter().map(|line| line[0]).collect();
-        let tracks: Vec<Vec<Track>> =
-            (0..places.len()).into_par_iter().map(|k| self.pass(&places, k)).collect();
-        if self.is_plane() {
-            return Ok(beside(tracks));
-        }
-        Ok(vec![tracks.into_iter().flatten().zip(spread.rooms(target, false)).collect()])
+        // A chord of a plane pass stays in its plane.
+        let rooms = if self.is_plane() { Vec::new() } else { spread.rooms(target, false) };
+        let tracks: Vec<Vec<((f64, f64), Track)>> =
+            (0..places.len()).into_par_iter().map(|k| self.tracks(&places, k)).collect();
+        let ranges: Vec<Vec<(f64, f64)>> =
+            tracks.iter().map(|line| line.iter().map(|(range, _)| *range).collect()).collect();
+        let leg = |&(line, k): &(usize, usize)| {
+            (tracks[line][k].1.clone(), rooms.get(line).cloned().unwrap_or_default())
+        };
+        Ok(outline::chained(&ranges).iter().map(|chain| chain.iter().map(leg).collect()).collect())
     }
 
     /// A pass along a stretch of a curve in the parameters.
-    fn bent(&self, line: &Line, stretch: &Stretch) -> Track {
+    fn bent(&self, line: &Line, (first, last): (usize, usize)) -> Track {
         let (from, to) = self.along(0.0).unwrap_or((0.0, 1.0));
         let at = |k: usize| from + (to - from) * count(k) / count(COLUMNS - 1);
         let across = usize::from(matches!(self.kind, Kind::Parameter(0)));
         let place = |k: usize| if across == 1 { [at(k), line[k]] } else { [line[k], at(k)] };
-        self.track(Guide::Curve(Arc::new((stretch.from..=stretch.to).map(place).collect())))
+        self.track(Guide::Curve(Arc::new((first..=last).map(place).collect())))
     }
 
     /// All passes and the ways between them, in the order they are cut.
@@ -349,119 +376,21 @@ impl Family {
             if let Some(before) = legs.last_mut() {
                 before.last = link.is_none();
             }
-            legs.extend(link.map(|track| Leg { track, room: Vec::new(), last: false }));
-            legs.push(Leg { track, room, last: false });
+            legs.extend(link.map(|track| Leg { track, room: Vec::new(), link: true, last: false }));
+            legs.push(Leg { track, room, link: false, last: false });
         }
     }
 }
 
-/// A stretch of a pass, by its first and last columns.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Stretch {
-    line: usize,
-    from: usize,
-    to: usize,
-}
-
-/// Plan passes, line by line, in chains of such that lie beside one another.
-fn beside(lines: Vec<Vec<Track>>) -> Vec<Chain> {
-    /// Stretches are compared to so many parts of a millimetre.
-    const PARTS: f64 = 1e3;
-    let ends = |track: &Track| match &track.guide {
-        Guide::Line { from, to } if from.y == to.y => (from.x, to.x),
-        Guide::Line { from, to } => (from.y, to.y),
-        _ => (0.0, 0.0),
-    };
-    let least = range(lines.iter().flatten().map(|track| ends(track).0)).0;
-    // Floats saturate.
-    let place = |x: f64| ((x - least) * PARTS).max(0.0) as usize;
-    let open = lines.iter().enumerate().map(|(line, tracks)| {
-        let stretch = |track: &Track| {
-            let (from, to) = ends(track);
-            Stretch { line, from: place(from), to: place(to) }
-        };
-        tracks.iter().rev().map(stretch).collect()
-    });
-    let track = |s: &Stretch| {
-        let own = lines.get(s.line).and_then(|tracks| tracks.iter().find(|t| place(ends(t).0) == s.from));
-        own.map(|track| (track.clone(), Vec::new()))
-    };
-    stretches(open.collect()).iter().map(|chain| chain.iter().filter_map(track).collect()).collect()
-}
-
-/// Stretches, line by line and the last of each first, in chains of such that lie beside one another.
-fn stretches(mut open: Vec<Vec<Stretch>>) -> Vec<Vec<Stretch>> {
-    let mut chains = Vec::new();
-    for first in 0..open.len() {
-        while let Some(start) = open[first].pop() {
-            let mut chain = vec![start];
-            let mut last = start;
-            while let Some(beside) = open.get_mut(last.line + 1) {
-                let shared = |s: &Stretch| (s.to.min(last.to) + 1).saturating_sub(s.from.max(last.from));
-                let best =
-                    (0..beside.len()).filter(|i| shared(&beside[*i]) > 0).max_by_key(|i| shared(&beside[*i]));
-                let Some(i) = best else { break };
-                last = beside.remove(i);
-                chain.push(last);
-            }
-            chains.push(chain);
-        }
-    }
-    chains
-}
-
-/// The stretches of one line, of two columns at least, the last first.
-fn runs(line: usize, across: &Line) -> Vec<Stretch> {
-    let mut out: Vec<Stretch> = Vec::new();
+/// The runs of columns at which a line has places, each of two columns at least: first and last.
+fn runs(across: &Line) -> Vec<(usize, usize)> {
+    let mut out: Vec<(usize, usize)> = Vec::new();
     for k in (0..across.len()).filter(|k| !across[*k].is_nan()) {
-        match out.last_mut().filter(|s| s.to + 1 == k) {
-            Some(stretch) => stretch.to = k,
-            None => out.push(Stretch { line, from: k, to: k }),
+        match out.last_mut().filter(|run| run.1 + 1 == k) {
+            Some(run) => run.1 = k,
+            None => out.push((k, k)),
         }
     }
-    out.retain(|s| s.to > s.from);
-    out.reverse();
+    out.retain(|run| run.1 > run.0);
     out
-}
-
-fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
-    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)))
-}
-
-impl Rim {
-    /// Places along the four edges of the net, in order around it.
-    fn new(axis: usize, tree: &SurfaceTree, ball: f64) -> Rim {
-        let net = tree.net();
-        let [rows, columns] = net.size().map(count);
-        let corners = [[0.0, 0.0], [rows, 0.0], [rows, columns], [0.0, columns]];
-        let mut places = Vec::new();
-        for (k, from) in corners.iter().enumerate() {
-            let to = corners[(k + 1) % 4];
-            for i in 0..EDGE {
-                let t = f64::from(i) / f64::from(EDGE);
-                let jet = net.jet(from[0] + (to[0] - from[0]) * t, from[1] + (to[1] - from[1]) * t);
-                if let Some(normal) = jet.normal() {
-                    places.push(RimPlace { point: jet.p, normal, centre: jet.p + normal * ball });
-                }
-            }
-        }
-        let outline = places.iter().map(|p| Point2::new(p.centre.x, p.centre.y)).collect();
-        Rim { axis, places, outline }
-    }
-}
-
-/// First and last crossing of a closed outline with a line along `axis`.
-pub(super) fn crossings(outline: &[Point2], axis: usize, across: f64) -> Option<(f64, f64)> {
-    let mut found = (f64::INFINITY, f64::NEG_INFINITY);
-    for (i, p) in outline.iter().enumerate() {
-        let q = outline[(i + 1) % outline.len()];
-        let (a, b) = (p[1 - axis] - across, q[1 - axis] - across);
-        if a * b > 0.0 {
-            continue;
-        }
-        let share = if a == b { 0.0 } else { a / (a - b) };
-        let at = p[axis] + (q[axis] - p[axis]) * share;
-        found = (found.0.min(at), found.1.max(at));
-    }
-    (found.0 < found.1).then_some(found)
 }

@@ -7,7 +7,8 @@
 use std::sync::Arc;
 
 use super::apart::Apart;
-use super::family::{Leg, crossings};
+use super::family::Leg;
+use super::outline::crossings;
 use crate::geom::surface::{Cutter, Guide, Rim, SurfaceTree, Track};
 use crate::geom::{Point2, Point3, Vec2};
 use crate::ir::{Along, Band, Spacing, Surface};
@@ -90,9 +91,9 @@ pub(super) fn legs(
         if let Some(before) = legs.last_mut() {
             before.last = link.is_none();
         }
-        legs.extend(link.map(|track| Leg { track, room: Vec::new(), last: false }));
+        legs.extend(link.map(|track| Leg { track, room: Vec::new(), link: true, last: false }));
         let room = if matches!(track.guide, Guide::Line { .. }) { Vec::new() } else { vec![room; ROOMS] };
-        legs.push(Leg { track, room, last: false });
+        legs.push(Leg { track, room, link: false, last: false });
     }
     if let Some(end) = legs.last_mut() {
         end.last = true;

@@ -10,6 +10,7 @@ mod family;
 mod lanes;
 mod march;
 mod material;
+mod outline;
 mod ridge;
 mod spread;
 
@@ -269,7 +270,7 @@ impl Planner<'_> {
             self.linear(*p, origin);
         }
         for leg in run {
-            let pass = Pass { track: leg.track.clone(), tip, band, room: leg.room.clone() };
+            let pass = Pass { track: leg.track.clone(), tip, band, link: leg.link, room: leg.room.clone() };
             self.emit(RecordKind::Pass(Box::new(pass)), origin);
         }
         let mut way_out = tips(&entry::onto(&last.track.reversed()));

@@ -191,7 +191,11 @@ fn chunk(
                 return (0.0, 0.0);
             }
             let used = match target {
-                Target::Step(step) => feet(rows, k).min(CLOSEST * apart) / step,
+                Target::Step(step) => {
+                    let between = Between { family, rows, ends: (lines.0[k], lines.1[k]), k };
+                    let far = if family.is_plane() { between.nearer(&mut hint) } else { feet(rows, k) };
+                    far.min(CLOSEST * apart) / step
+                }
                 Target::Cusp(h) => {
                     let between = Between { family, rows, ends: (lines.0[k], lines.1[k]), k };
                     let flat = apart / (2.0 * (h * (2.0 * (family.ball - family.leave) - h)).max(0.0).sqrt());
@@ -282,6 +286,24 @@ struct Between<'a> {
 }
 
 impl Between<'_> {
+    /// Twice the distance on the surface, mm, of the place half way from the pass that is nearer: where one pass ends
+    /// before the other, that counts.
+    fn nearer(&self, hint: &mut Option<Contact>) -> f64 {
+        let Some(contact) = self.within(0.5, hint) else { return 0.0 };
+        let beside = |row: &Row| row.beside(contact.foot.point, self.k);
+        let nearer = beside(self.rows.0).min(beside(self.rows.1));
+        if nearer.is_finite() { 2.0 * nearer } else { 0.0 }
+    }
+
+    /// The contact at a share of the way from one pass to the other.
+    fn within(&self, share: f64, hint: &mut Option<Contact>) -> Option<Contact> {
+        let across = self.ends.0 + (self.ends.1 - self.ends.0) * share;
+        let along = place(self.family.along(across)?, self.k);
+        let contact = self.family.contact(across, along, hint.as_ref())?;
+        *hint = Some(contact);
+        Some(contact)
+    }
+
     /// Square root of the ridge's height, mm; `None` where the ball touches nothing. Roots grow evenly from each pass,
     /// so that the place of the ridge, where they meet, is found in a few steps.
     fn ridge(&self, hint: &mut Option<Contact>) -> Option<f64> {
@@ -310,10 +332,7 @@ impl Between<'_> {
 
     /// Square roots of the heights that either pass leaves at a share of the way from one to the other.
     fn roots(&self, share: f64, hint: &mut Option<Contact>) -> Option<(f64, f64)> {
-        let across = self.ends.0 + (self.ends.1 - self.ends.0) * share;
-        let along = place(self.family.along(across)?, self.k);
-        let contact = self.family.contact(across, along, hint.as_ref())?;
-        *hint = Some(contact);
+        let contact = self.within(share, hint)?;
         let (q, n, leave) = (contact.foot.point, contact.normal, self.family.leave);
         let radius = self.family.ball - leave;
         // Cusps stand on what is left.

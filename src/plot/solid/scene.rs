@@ -150,7 +150,7 @@ impl<'a> Scene<'a> {
         let record = block.record.and_then(|r| self.cl.records.get(r as usize)).map(|r| &r.kind);
         match record {
             _ if cut.in_cycle => Use::Cut,
-            Some(RecordKind::Pass(pass)) if pass.room.is_empty() => Use::Link,
+            Some(RecordKind::Pass(pass)) if pass.link => Use::Link,
             Some(RecordKind::Pass(_)) => Use::Cut,
             Some(RecordKind::Contour(_)) if block.piece.is_none() => Use::Entry,
             _ if plunges => Use::Entry,

@@ -90,7 +90,7 @@ pub(super) fn check(
             measured.length += (swept.to - swept.from).norm();
             measured.passes.push(swept);
             let of = record_of(case, placed);
-            measured.runs += u32::from(of != record);
+            measured.runs += u32::from(of != record && !is_link(case, of));
             record = of;
         }
     }
@@ -108,6 +108,12 @@ struct One {
 /// The CL record that a move expresses.
 fn record_of(case: &Case<'_>, placed: &Placed<'_>) -> Option<u32> {
     case.target.blocks.get(placed.block?)?.record
+}
+
+/// Whether a CL record leads from one pass to the next.
+fn is_link(case: &Case<'_>, record: Option<u32>) -> bool {
+    let kind = record.and_then(|r| case.cl.records.get(r as usize)).map(|r| &r.kind);
+    matches!(kind, Some(RecordKind::Pass(pass)) if pass.link)
 }
 
 /// Whether a move is part of a pass.

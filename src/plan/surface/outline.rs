@@ -1,0 +1,174 @@
+//! The outline of a surface in plan, as plan passes along an axis cross it, and the stretches that passes run in.
+
+use crate::geom::surface::SurfaceTree;
+use crate::geom::{Point2, Point3, Vec3};
+use crate::math::count;
+
+/// Outline points on an edge of a patch.
+const EDGE: u32 = 400;
+
+/// The edges of the surface as plan passes along an axis (0: x) see them.
+#[derive(Debug)]
+pub(super) struct Rim {
+    pub axis: usize,
+    pub places: Vec<RimPlace>,
+    /// The centres in plan: the outline of the offset surface.
+    outline: Vec<Point2>,
+}
+
+/// A place on an edge, with the centre of the ball that touches there.
+#[derive(Debug)]
+pub(super) struct RimPlace {
+    pub point: Point3,
+    pub normal: Vec3,
+    pub centre: Point3,
+}
+
+impl Rim {
+    /// Places along the four edges of the net, in order around it.
+    pub(super) fn new(axis: usize, tree: &SurfaceTree, ball: f64) -> Rim {
+        let net = tree.net();
+        let [rows, columns] = net.size().map(count);
+        let corners = [[0.0, 0.0], [rows, 0.0], [rows, columns], [0.0, columns]];
+        let mut places = Vec::new();
+        for (k, from) in corners.iter().enumerate() {
+            let to = corners[(k + 1) % 4];
+            for i in 0..EDGE {
+                let t = f64::from(i) / f64::from(EDGE);
+                let jet = net.jet(from[0] + (to[0] - from[0]) * t, from[1] + (to[1] - from[1]) * t);
+                if let Some(normal) = jet.normal() {
+                    places.push(RimPlace { point: jet.p, normal, centre: jet.p + normal * ball });
+                }
+            }
+        }
+        let outline = places.iter().map(|p| Point2::new(p.centre.x, p.centre.y)).collect();
+        Rim { axis, places, outline }
+    }
+
+    /// Range of *across*.
+    pub(super) fn width(&self) -> (f64, f64) {
+        let across = self.outline.iter().map(|p| p[1 - self.axis]);
+        across.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)))
+    }
+
+    /// First and last crossing of the pass at `across`.
+    pub(super) fn crossings(&self, across: f64) -> Option<(f64, f64)> {
+        crossings(&self.outline, self.axis, across)
+    }
+
+    /// The stretches of the pass at `across` on which the ball touches inside of the edges, in rising order.
+    pub(super) fn inside(&self, across: f64) -> Vec<(f64, f64)> {
+        inside(&self.outline, self.axis, across)
+    }
+
+    /// A place in plan.
+    pub(super) fn place(&self, along: f64, across: f64) -> Point2 {
+        if self.axis == 0 { Point2::new(along, across) } else { Point2::new(across, along) }
+    }
+}
+
+/// Where a line along `axis` crosses a closed outline, in rising order; with the side to which the outline goes on.
+fn crossed(outline: &[Point2], axis: usize, across: f64) -> Vec<(f64, i32)> {
+    let mut found = Vec::new();
+    for (i, p) in outline.iter().enumerate() {
+        let q = outline[(i + 1) % outline.len()];
+        let (a, b) = (p[1 - axis] - across, q[1 - axis] - across);
+        // A vertex on the line belongs to the side above it.
+        if (a < 0.0) != (b < 0.0) {
+            found.push((p[axis] + (q[axis] - p[axis]) * (a / (a - b)), if a < b { 1 } else { -1 }));
+        }
+    }
+    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    found
+}
+
+/// First and last crossing of a closed outline with a line along `axis`.
+pub(super) fn crossings(outline: &[Point2], axis: usize, across: f64) -> Option<(f64, f64)> {
+    let found = crossed(outline, axis, across);
+    let (first, last) = (found.first()?.0, found.last()?.0);
+    (first < last).then_some((first, last))
+}
+
+/// The stretches of a line along `axis` that lie inside a closed outline, in rising order.
+fn inside(outline: &[Point2], axis: usize, across: f64) -> Vec<(f64, f64)> {
+    let mut out: Vec<(f64, f64)> = Vec::new();
+    let (mut winding, mut start) = (0, 0.0);
+    for (at, side) in crossed(outline, axis, across) {
+        let before = winding;
+        winding += side;
+        if before == 0 {
+            start = at;
+        } else if winding == 0 && at > start {
+            out.push((start, at));
+        }
+    }
+    out
+}
+
+/// Ranges in rising order, those that overlap united.
+pub(super) fn united(ranges: impl Iterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
+    let mut sorted: Vec<(f64, f64)> = ranges.collect();
+    sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut out: Vec<(f64, f64)> = Vec::new();
+    for (a, b) in sorted {
+        match out.last_mut().filter(|before| a <= before.1) {
+            Some(before) => before.1 = before.1.max(b),
+            None => out.push((a, b)),
+        }
+    }
+    out
+}
+
+/// Stretches, each a range of places along, of lines that lie beside one another: in chains of such that have places in
+/// common, by line and number.
+pub(super) fn chained(lines: &[Vec<(f64, f64)>]) -> Vec<Vec<(usize, usize)>> {
+    let mut open: Vec<Vec<usize>> = lines.iter().map(|l| (0..l.len()).collect()).collect();
+    let mut chains = Vec::new();
+    for first in 0..open.len() {
+        while !open[first].is_empty() {
+            let mut last = (first, open[first].remove(0));
+            let mut chain = vec![last];
+            while let Some(beside) = open.get_mut(last.0 + 1) {
+                let own = lines[last.0][last.1];
+                let shared = |i: usize| {
+                    let other = lines[last.0 + 1][i];
+                    other.1.min(own.1) - other.0.max(own.0)
+                };
+                let best = (0..beside.len())
+                    .filter(|k| shared(beside[*k]) > 0.0)
+                    .max_by(|a, b| shared(beside[*a]).total_cmp(&shared(beside[*b])));
+                let Some(k) = best else { break };
+                last = (last.0 + 1, beside.remove(k));
+                chain.push(last);
+            }
+            chains.push(chain);
+        }
+    }
+    chains
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn crescent() -> Vec<Point2> {
+        [(0.0, 0.0), (10.0, 0.0), (10.0, 4.0), (5.0, 1.0), (0.0, 4.0)].map(|(x, y)| Point2::new(x, y)).to_vec()
+    }
+
+    #[test]
+    fn a_line_over_a_hollow_outline_runs_in_two_stretches() {
+        let outline = crescent();
+        assert_eq!(inside(&outline, 0, 0.5), [(0.0, 10.0)]);
+        let two = inside(&outline, 0, 2.5);
+        assert_eq!(two.len(), 2, "{two:?}");
+        assert!((two[0].1 - 2.5).abs() < 1e-12 && (two[1].0 - 7.5).abs() < 1e-12, "{two:?}");
+        assert_eq!(crossings(&outline, 0, 2.5), Some((0.0, 10.0)));
+        assert!(inside(&outline, 0, 5.0).is_empty());
+    }
+
+    #[test]
+    fn stretches_beside_one_another_make_chains() {
+        let lines = [vec![(0.0, 10.0)], vec![(0.0, 4.0), (6.0, 10.0)], vec![(0.0, 3.0), (7.0, 10.0)]];
+        assert_eq!(chained(&lines), [vec![(0, 0), (1, 1), (2, 1)], vec![(1, 0), (2, 0)]]);
+    }
+}
