@@ -3,8 +3,10 @@
 //! d, the distance of the centre from the surface, is the smallest of the distances |x - q| from its points q; each of
 //! these has a second derivative along a unit direction of at most 1/|x - q|. So d'' <= K = 1/min d in the sense of
 //! semiconcave functions: between two samples d lies above chord - K/2 (s - a)(b - s), and below the parabolas of
-//! second derivative K that touch it at the samples. Both bounds need nothing but samples of d and its gradient.
+//! second derivative K that touch it at the samples. Both bounds need nothing but samples of d and its gradient. Where the
+//! surface is mild K is far less ([`super::tree::glide`]), and a few samples do.
 
+use super::tree::glide::Glide;
 use super::tree::{Foot, SurfaceTree};
 use crate::geom::{Point3, Vec3};
 
@@ -79,7 +81,9 @@ pub fn extremes(
     };
     let first = look(0.0, hint);
     let last = look(length, Some(&first.foot));
-    let mut hunt = Hunt { from, along, question, least: first, most: first, left: BUDGET };
+    let farthest = 0.5 * (first.above + last.above + length);
+    let glide = tree.glide(from + way * 0.5, length, farthest);
+    let mut hunt = Hunt { from, along, question, glide, least: first, most: first, left: BUDGET };
     hunt.take(&last);
     let mut stack = vec![(first, last)];
     while let Some((a, b)) = stack.pop() {
@@ -98,6 +102,7 @@ struct Hunt<'a> {
     from: Point3,
     along: Vec3,
     question: &'a Question,
+    glide: Option<Glide>,
     least: Sample,
     most: Sample,
     left: u32,
@@ -123,7 +128,9 @@ impl Hunt<'_> {
         if nearest <= 0.0 {
             return Some(0.5 * (a.s + b.s));
         }
-        let k = 1.0 / nearest;
+        let farthest = 0.5 * (a.above + b.above + h);
+        let mild = self.glide.and_then(|g| g.bound((a.s, b.s), (nearest, farthest)));
+        let k = mild.map_or(1.0 / nearest, |k| k.min(1.0 / nearest));
         let (low, low_at) = below(a, b, k);
         let (high, high_at) = above(a, b, k);
         let deeper = low < (self.least.d - self.question.accuracy).min(self.question.enough);

@@ -6,6 +6,7 @@
 //! that Newton's method over the rectangle gives the one minimum; where it is not, the leaf is cut up further.
 
 mod bend;
+pub mod glide;
 mod near;
 mod place;
 mod quest;
@@ -22,6 +23,7 @@ use super::net::Net;
 use super::patch::Patch;
 use crate::geom::{Point3, Vec3};
 use bend::Bend;
+use glide::Swings;
 use place::{descend, settle};
 use quest::Quest;
 
@@ -53,6 +55,7 @@ pub struct SurfaceTree {
     creases: Creases,
     /// Bounds of |r_uu|, |r_uv|, |r_vv| over each patch.
     swings: Vec<[f64; 3]>,
+    glides: Vec<Swings>,
 }
 
 /// Bounding box with children, or a leaf.
@@ -186,10 +189,12 @@ impl SurfaceTree {
     pub fn new(net: Net, reach: f64) -> SurfaceTree {
         let derivatives: Vec<Derivatives> = net.patches().iter().map(Derivatives::new).collect();
         let swings = derivatives.iter().map(slide::swings).collect();
+        let glides = net.patches().iter().map(Swings::new).collect();
         let (nodes, leaves, sure) = (Vec::new(), Vec::new(), Vec::new());
         let creases = Creases::new(&net);
+        let upright = true;
         let mut tree =
-            SurfaceTree { net, derivatives, nodes, leaves, sure, reach, upright: true, creases, swings };
+            SurfaceTree { net, derivatives, nodes, leaves, sure, reach, upright, creases, swings, glides };
         let [rows, columns] = tree.net.size();
         tree.nodes.push(EMPTY);
         let root = tree.block((0, rows), (0, columns), reach);
@@ -265,6 +270,9 @@ impl SurfaceTree {
         let derivatives = self.derivatives[patch].boxes(area.u, area.v);
         let (hull, bend) = (hull(piece), Bend::new(&derivatives));
         let sure = if bend.is_convex_within(&hull, reach) { self.piece(patch, area) } else { NONE };
+        if depth == SHALLOWEST {
+            self.glides[patch].add(&hull, &derivatives);
+        }
         if depth >= SHALLOWEST {
             let slab = Slab::new(piece);
             let size = 2.0 * slab.radius;
