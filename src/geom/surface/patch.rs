@@ -1,7 +1,5 @@
 //! One Bezier patch of any degree, polynomial or rational.
 
-use nalgebra::SVector;
-
 use crate::geom::{Point3, Vec3};
 
 /// Largest degree of a patch in either direction.
@@ -91,7 +89,12 @@ pub struct Patch {
     degree: [usize; 2],
     poles: Vec<Homogeneous>,
     rational: bool,
+    /// A bicubic patch of a net in powers of u and v: points of these are asked for by the million.
+    powers: Option<Box<Powers>>,
 }
+
+/// Coefficients of uⁱ vʲ, row by row.
+type Powers = [Homogeneous; 16];
 
 impl Patch {
     /// A patch from its poles, row by row, and their weights (1 when `None`).
@@ -116,8 +119,9 @@ impl Patch {
             let w = if rational { weight(i) } else { 1.0 };
             Homogeneous::new(p.x * w, p.y * w, p.z * w, w)
         };
-        let poles = poles.iter().enumerate().map(lift).collect();
-        Some(Patch { degree: [rows - 1, columns - 1], poles, rational })
+        let poles: Vec<Homogeneous> = poles.iter().enumerate().map(lift).collect();
+        let powers = (rows == 4 && columns == 4).then(|| Box::new(powers(&poles)));
+        Some(Patch { degree: [rows - 1, columns - 1], poles, rational, powers })
     }
     /// Degree in u and v.
     #[must_use]
@@ -154,10 +158,6 @@ impl Patch {
     /// r and its derivatives to second order, eq. (8) ff.
     #[must_use]
     pub fn jet(&self, u: f64, v: f64) -> SurfaceJet {
-        if self.degree == [3, 3] && !self.rational {
-            let [p, u, v, uu, uv, vv] = bicubic::<3>(&self.poles, u, v);
-            return SurfaceJet { p: Point3::from(p), u, v, uu, uv, vv };
-        }
         let [h, hu, hv, huu, huv, hvv] = self.sums(u, v);
         if self.rational {
             return quotient(h, hu, hv, huu, huv, hvv);
@@ -180,10 +180,10 @@ impl Patch {
     }
     /// The homogeneous point and its derivatives, in the order of [`SurfaceJet`].
     fn sums(&self, u: f64, v: f64) -> [Homogeneous; 6] {
-        let [m, n] = self.degree;
-        if [m, n] == [3, 3] {
-            return bicubic::<4>(&self.poles, u, v);
+        if let Some(powers) = &self.powers {
+            return bicubic(powers, u, v);
         }
+        let [m, n] = self.degree;
         let (b, c) = (bernstein_jet(m, u), bernstein_jet(n, v));
         let mut out = [Homogeneous::zeros(); 6];
         for (i, row) in self.poles.chunks_exact(n + 1).enumerate() {
@@ -208,7 +208,7 @@ impl Patch {
         for i in 0..=m {
             blossom_line(&mut poles, i * (n + 1), 1, n, v);
         }
-        Patch { degree: self.degree, poles, rational: self.rational }
+        Patch { degree: self.degree, poles, rational: self.rational, powers: None }
     }
     /// Homogeneous poles of ∂/∂u (`axis` 0) or ∂/∂v (`axis` 1) of the homogeneous patch.
     #[must_use]
@@ -227,7 +227,7 @@ impl Patch {
                 });
             }
         }
-        Patch { degree: [rows_out - 1, columns_out - 1], poles, rational: self.rational }
+        Patch { degree: [rows_out - 1, columns_out - 1], poles, rational: self.rational, powers: None }
     }
 }
 
@@ -268,26 +268,33 @@ fn bernstein(n: usize, t: f64) -> Basis {
     b
 }
 
-/// The first coordinates of the homogeneous point of a bicubic patch and of its derivatives: bicubic patches are the most
-/// frequent by far.
-fn bicubic<const D: usize>(poles: &[Homogeneous], u: f64, v: f64) -> [SVector<f64, D>; 6] {
-    let (b, c) = (cubic(u), cubic(v));
-    let mut out = [SVector::zeros(); 6];
-    for (i, row) in poles.chunks_exact(4).enumerate() {
-        let mut r = [SVector::<f64, D>::zeros(); 3];
-        for (j, pole) in row.iter().enumerate() {
-            let pole = SVector::<f64, D>::from_fn(|k, _| pole[k]);
-            for (sum, basis) in r.iter_mut().zip(&c) {
-                *sum += pole * basis[j];
-            }
-        }
-        gather(&mut out, &r, [b[0][i], b[1][i], b[2][i]]);
-    }
-    out
+/// A bicubic patch in powers of u and v.
+fn powers(poles: &[Homogeneous]) -> Powers {
+    // Of a line of four poles.
+    let line = |[a, b, c, d]: [Homogeneous; 4]| {
+        [a, (b - a) * 3.0, ((c - b) - (b - a)) * 3.0, (d - a) - (c - b) * 3.0]
+    };
+    let row = |i: usize| line(core::array::from_fn(|j| poles[4 * i + j]));
+    let rows: [[Homogeneous; 4]; 4] = core::array::from_fn(row);
+    let columns: [[Homogeneous; 4]; 4] = core::array::from_fn(|j| line(rows.map(|r| r[j])));
+    core::array::from_fn(|k| columns[k % 4][k / 4])
+}
+
+/// The homogeneous point of a bicubic patch and its derivatives, by Horner's rule.
+fn bicubic(powers: &Powers, u: f64, v: f64) -> [Homogeneous; 6] {
+    let row = |i: usize| {
+        let [a, b, c, d] = [powers[4 * i], powers[4 * i + 1], powers[4 * i + 2], powers[4 * i + 3]];
+        let dv = d * v;
+        [a + (b + (c + dv) * v) * v, b + (c * 2.0 + dv * 3.0) * v, c * 2.0 + dv * 6.0]
+    };
+    let [a, b, c, d] = [row(0), row(1), row(2), row(3)];
+    let value = |k: usize| a[k] + (b[k] + (c[k] + d[k] * u) * u) * u;
+    let slope = |k: usize| b[k] + (c[k] * 2.0 + d[k] * (3.0 * u)) * u;
+    [value(0), slope(0), value(1), c[0] * 2.0 + d[0] * (6.0 * u), slope(1), value(2)]
 }
 
 /// Adds what a row of poles gives: its sums with the basis in v and that basis's derivatives, times those in u.
-fn gather<const D: usize>(out: &mut [SVector<f64, D>; 6], r: &[SVector<f64, D>; 3], b: [f64; 3]) {
+fn gather(out: &mut [Homogeneous; 6], r: &[Homogeneous; 3], b: [f64; 3]) {
     out[0] += r[0] * b[0];
     out[1] += r[0] * b[1];
     out[2] += r[1] * b[0];
@@ -312,17 +319,6 @@ fn bernstein_jet(n: usize, t: f64) -> [Basis; 3] {
     let first = down(&b1, n);
     let second = if n >= 2 { down(&down(&bernstein(n - 2, t), n - 1), n) } else { [0.0; MAX_DEGREE + 1] };
     [b, first, second]
-}
-
-/// Cubic Bernstein polynomials at `t` with first and second derivatives.
-fn cubic(t: f64) -> [[f64; 4]; 3] {
-    let s = 1.0 - t;
-    let (s2, st, t2) = (s * s, s * t, t * t);
-    [
-        [s2 * s, 3.0 * s2 * t, 3.0 * s * t2, t2 * t],
-        [-3.0 * s2, 3.0 * s2 - 6.0 * st, 6.0 * st - 3.0 * t2, 3.0 * t2],
-        [6.0 * s, 6.0 * t - 12.0 * s, 6.0 * s - 12.0 * t, 6.0 * t],
-    ]
 }
 
 /// Derivatives of the projection of a homogeneous surface.

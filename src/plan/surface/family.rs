@@ -9,7 +9,7 @@ use super::outline::{self, Rim};
 use super::ridge::Target;
 use super::spread::{self, COLUMNS, Line};
 use crate::geom::surface::{Contact, Cutter, Guide, SurfaceTree, Track, drop_ball};
-use crate::geom::{Point2, Vec3};
+use crate::geom::{Point2, Point3, Vec3};
 use crate::ir::{Along, Spacing, Surface};
 use crate::math::count;
 use crate::plan::closer::Shares;
