@@ -17,7 +17,7 @@ const FREE: u32 = 10;
 /// A pass is near enough when it uses so much wherever it may.
 const NEAR: f64 = 0.995;
 /// Part of the height of cusps that bent passes are spread for: the rest is for blocks, which are straight.
-const BENT: f64 = 0.975;
+const BENT: f64 = 0.993;
 /// … and what may be used beyond that.
 const SPENT: f64 = 0.002;
 /// Ways are tried out with about so many passes.

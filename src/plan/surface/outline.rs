@@ -152,7 +152,9 @@ mod tests {
     use super::*;
 
     fn crescent() -> Vec<Point2> {
-        [(0.0, 0.0), (10.0, 0.0), (10.0, 4.0), (5.0, 1.0), (0.0, 4.0)].map(|(x, y)| Point2::new(x, y)).to_vec()
+        [(0.0, 0.0), (10.0, 0.0), (10.0, 4.0), (5.0, 1.0), (0.0, 4.0)]
+            .map(|(x, y)| Point2::new(x, y))
+            .to_vec()
     }
 
     #[test]

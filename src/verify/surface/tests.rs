@@ -72,16 +72,50 @@ fn passes_that_bend_are_shorter_than_straight_ones() {
     assert!(iso.0 < 2 * u.0.max(v.0), "{iso:?} {u:?} {v:?}");
 }
 
+/// The program with another net in place of its own.
+fn with_net(operation: &str, net: &str) -> Build {
+    let text = program(operation);
+    let (first, tool) = (text.find("N1 =").expect("a net"), text.find("T1 =").expect("a cutter"));
+    let mut files = MemoryFiles::default();
+    files.0.insert("part.apt".to_owned(), format!("{}{net}{}", &text[..first], &text[tool..]));
+    let build = driver::build("part.apt", &files, &Options::default());
+    assert!(!build.has_errors(), "{operation}: {:#?}", build.diagnostics);
+    build
+}
+
+#[test]
+fn plan_passes_over_a_hollow_outline_run_in_stretches() {
+    // A banana: lines of constant y near its ends meet both tips and nothing between them.
+    let banana = "N1 = NET/ 4, 4, (0, 0, 0), (0, 8, 1), (0, 16, 2), (0, 24, 0), $\n\
+                  (12, 16, 1), (12, 24, 4), (12, 32, 3), (12, 40, 2), $\n\
+                  (24, 16, 2), (24, 24, 3), (24, 32, 5), (24, 40, 1), $\n\
+                  (36, 0, 0), (36, 8, 2), (36, 16, 1), (36, 24, 0)\n";
+    for along in ["X", "Y"] {
+        let build = with_net(&format!("ZIGZAG, {along}, CUSP, 0.03"), banana);
+        let proof = proof(&build);
+        assert!(proof.into.value <= 1e-6 && proof.out.value <= 0.01 + 1e-6, "{along}: {proof:?}");
+        assert!(proof.cusp.expect("cusps").value <= 0.0301, "{along}: {proof:?}");
+        let records = &build.cl.as_ref().expect("CL").records;
+        let passes: Vec<bool> = records
+            .iter()
+            .filter_map(|r| if let RecordKind::Pass(p) = &r.kind { Some(p.link) } else { None })
+            .collect();
+        let links = passes.iter().filter(|link| **link).count();
+        assert_eq!(passes.len() - links, proof.passes as usize, "{along}: links are no passes");
+        // Lines along x are in two parts where they meet the tips.
+        assert!(
+            along == "Y" || links + 1 < proof.passes as usize,
+            "{links} links of {} passes",
+            proof.passes
+        );
+    }
+}
+
 #[test]
 fn the_first_and_the_last_pass_lie_half_a_distance_inside() {
     let plane = "N1 = NET/ 2, 2, (0, 0, 0), (0, 19.5, 0), (30, 0, 0), (30, 19.5, 0)\n";
     let passes = |along: &str| {
-        let text = program(&format!("ONEWAY, {along}, CUSP, 0.02"));
-        let (net, tool) = (text.find("N1 =").expect("a net"), text.find("T1 =").expect("a cutter"));
-        let mut files = MemoryFiles::default();
-        files.0.insert("part.apt".to_owned(), format!("{}{plane}{}", &text[..net], &text[tool..]));
-        let build = driver::build("part.apt", &files, &Options::default());
-        assert!(!build.has_errors(), "{along}: {:#?}", build.diagnostics);
+        let build = with_net(&format!("ONEWAY, {along}, CUSP, 0.02"), plane);
         let records = &build.cl.as_ref().expect("CL").records;
         records.iter().filter(|r| matches!(r.kind, RecordKind::Pass(_))).count()
     };

@@ -22,6 +22,8 @@ pub(super) struct Tile<'a> {
     pub unreachable: Worst,
     cells: u32,
     near: Vec<u32>,
+    /// What each of the moves near a cell leaves at its corners, mm.
+    heights: Vec<[f64; 4]>,
     patch: usize,
 }
 
@@ -48,6 +50,7 @@ impl Field<'_> {
             unreachable: Worst::NONE,
             cells: 0,
             near: Vec::new(),
+            heights: Vec::new(),
             patch,
         };
         let piece = whole.restrict(first.u, first.v);
@@ -167,15 +170,16 @@ impl Tile<'_> {
         let mut best = None;
         let mut least = [f64::INFINITY; 4];
         let mut by = [0u32; 4];
+        self.heights.clear();
         for &i in near {
-            let mut most = f64::NEG_INFINITY;
+            let heights = corners.map(|corner| field.height(i, &corner));
             for k in 0..4 {
-                let height = field.height(i, &corners[k]);
-                most = most.max(height);
-                if height < least[k] {
-                    (least[k], by[k]) = (height, i);
+                if heights[k] < least[k] {
+                    (least[k], by[k]) = (heights[k], i);
                 }
             }
+            self.heights.push(heights);
+            let most = heights.into_iter().fold(f64::NEG_INFINITY, f64::max);
             if most < bound {
                 (bound, best) = (most, Some(i));
             }
@@ -183,7 +187,7 @@ impl Tile<'_> {
         // Raising a point by dT along its normal moves it into the capsule by more than half of that.
         let bound = bound + 2.0 * sagitta;
         for k in 0..4 {
-            self.note(&corners[k], least[k], by[k], near);
+            self.note((&corners[k], k), least[k], by[k], near);
         }
         let known = self.left.value.max(field.floor);
         let settled = bound <= field.settles(known);
@@ -208,10 +212,11 @@ impl Tile<'_> {
         self.field.reaches(self.patch, at)
     }
 
-    fn note(&mut self, at: &Corner, height: f64, by: u32, near: &[u32]) {
+    /// Takes what is left at corner `k` of a cell into account.
+    fn note(&mut self, (at, k): (&Corner, usize), height: f64, by: u32, near: &[u32]) {
         let field = self.field;
         let value = height.min(field.ceiling);
-        let cusp = field.cusps && value > self.cusp.value && self.cusp_about(at, near) > self.cusp.value;
+        let cusp = field.cusps && value > self.cusp.value && self.may_be_cusp((at, k), near);
         if value <= self.left.value.max(field.floor) && !cusp {
             return;
         }
@@ -228,14 +233,19 @@ impl Tile<'_> {
         }
     }
 
-    /// No less than what would be left at a point if the path had no deviation of its own, but for rare places.
-    fn cusp_about(&self, at: &Corner, near: &[u32]) -> f64 {
-        let one = |i: &u32| {
-            let height = self.field.height(*i, at);
-            let off = self.field.capsules.get(*i as usize).map_or(0.0, |c| c.off_at(at.p + at.n * height));
-            if height.is_finite() { height - off } else { f64::INFINITY }
-        };
-        near.iter().map(one).fold(f64::INFINITY, f64::min) + ABOUT * self.field.out
+    /// Whether more than the highest cusp known would be left at corner `k` of a cell if the path had no deviation of its
+    /// own; yes in doubt, but for rare places.
+    fn may_be_cusp(&self, (at, k): (&Corner, usize), near: &[u32]) -> bool {
+        let enough = self.cusp.value - ABOUT * self.field.out;
+        near.iter().zip(&self.heights).all(|(i, heights)| {
+            let height = heights[k];
+            // The path is no farther off than it may be.
+            height - self.field.out > enough
+                || self.field.capsules.get(*i as usize).is_none_or(|c| {
+                    let off = c.off_at(at.p + at.n * height);
+                    height - off > enough
+                })
+        })
     }
 
     /// What would be left at a point if the path had no deviation of its own.

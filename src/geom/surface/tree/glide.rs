@@ -54,7 +54,8 @@ impl Swing {
         let size = |d: &[Interval; 3]| d.iter().map(|i| i.magnitude() * i.magnitude()).sum::<f64>().sqrt();
         let cross = |a: usize, b: usize| ru[a] * rv[b] - ru[b] * rv[a];
         let least = |i: Interval| if i.lo > 0.0 { i.lo } else { (-i.hi).max(0.0) };
-        let area = [cross(1, 2), cross(2, 0), cross(0, 1)].map(|i| least(i) * least(i)).iter().sum::<f64>().sqrt();
+        let area =
+            [cross(1, 2), cross(2, 0), cross(0, 1)].map(|i| least(i) * least(i)).iter().sum::<f64>().sqrt();
         Swing { second: [ruu, ruv, rvv].map(size), rate: [size(rv) / area, size(ru) / area] }
     }
 
