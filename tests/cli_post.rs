@@ -101,7 +101,7 @@ fn z_goes_up_for_a_tool_change_where_the_machine_says_how_far() {
 const UNTRUE: &[(&str, &str)] = &[
     ("inherits = \"grbl\"\n[arcs]\nfull-circle = \"bare\"\n", "`full circle`"),
     ("inherits = \"fanuc\"\n[dwell]\nunit = \"s\"\ndecimals = 3\n", "`0.5 s in a block of its own`"),
-    ("inherits = \"haas\"\n[numbers]\npoint = \"needed\"\n", "`full circle`"),
+    ("inherits = \"haas\"\n[numbers]\npoint = \"needed\"\n", "`0.5 s in a block of its own`"),
     (
         "inherits = \"fanuc\"\n[templates]\nheader = \"{% for i in range(9999999) %}{% endfor %}\"\n",
         "`end of program`",

@@ -107,8 +107,12 @@ pub fn findings(dialect: &Dialect, name: &str) -> Vec<Diagnostic> {
         }
     }
     let finding = |(fault, title, rows): (&str, &str, u32)| {
-        let more = if rows > 1 { format!(" and {} more", rows - 1) } else { String::new() };
-        let message = format!("the row `{title}` of the selftest{more} comes out wrong: {fault}");
+        let more = match rows - 1 {
+            0 => String::new(),
+            1 => ", and so does another".to_owned(),
+            n => format!(", and so do {n} others"),
+        };
+        let message = format!("the row `{title}` of the selftest comes out wrong{more}: {fault}");
         Diagnostic::global(&codes::tools::INEXPRESSIBLE, message)
             .help(format!("`partwright post selftest {name}` shows its lines"))
     };
