@@ -104,7 +104,7 @@ const UNTRUE: &[(&str, &str)] = &[
     ("inherits = \"haas\"\n[numbers]\npoint = \"needed\"\n", "`0.5 s in a block of its own`"),
     (
         "inherits = \"fanuc\"\n[templates]\nheader = \"{% for i in range(9999999) %}{% endfor %}\"\n",
-        "`end of program`",
+        "`0.5 s in a block of its own`",
     ),
 ];
 
