@@ -7,8 +7,9 @@ use super::buckets::Buckets;
 use super::capsule::{Capsule, Corner};
 use super::moves::Worst;
 use crate::cl::{Finish, Operation};
-use crate::geom::Point3;
+use crate::geom::{Point2, Point3};
 use crate::geom::surface::{Foot, SurfaceTree};
+use crate::math;
 
 /// Tiles of a patch in each direction, checked in parallel.
 pub(super) const TILES: u32 = 16;
@@ -161,6 +162,10 @@ impl<'a> Field<'a> {
             }
         }
         self.buckets.gather([0, 1].map(|i| (low[i] - around, high[i] + around)), near);
+        // Of the moves in these squares, those that come so near in plan.
+        let middle = Point2::new(0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1]));
+        let far = around + 0.5 * math::hypot(high[0] - low[0], high[1] - low[1]);
+        near.retain(|i| self.passes.get(*i as usize).is_some_and(|swept| beside(middle, swept) <= far * far));
     }
 
     /// Whether the ball can be set on a point without gouging elsewhere.
@@ -175,4 +180,11 @@ impl<'a> Field<'a> {
         let height = self.capsules.get(i as usize).map(|c| c.height(at, self.radius));
         height.unwrap_or(f64::INFINITY) - (self.ball - self.radius)
     }
+}
+
+/// Square distance of a move from a point in plan.
+fn beside(p: Point2, swept: &Swept) -> f64 {
+    let (from, way) = (swept.from.xy(), swept.to.xy() - swept.from.xy());
+    let share = ((p - from).dot(&way) / way.norm_squared().max(1e-300)).clamp(0.0, 1.0);
+    (p - from - way * share).norm_squared()
 }

@@ -199,7 +199,7 @@ impl<'a> Field<'a> {
         let part = |k: u32| (f64::from(k) / f64::from(TILES), f64::from(k + 1) / f64::from(TILES));
         let (u, v) = (part(tile / TILES), part(tile % TILES));
         let whole = &self.finish.tree.net().patches()[patch];
-        let bend = Bend::new(&whole.restrict(u, v), TILES);
+        let bend = Bend::new(&self.finish.tree, patch, u, v);
         let size = bend.size(u.1 - u.0, v.1 - v.0).iter().sum::<f64>();
         let mut near = Vec::new();
         if let Some(middle) = Corner::new(whole, middle(u), middle(v)) {

@@ -3,8 +3,7 @@
 use super::capsule::{Capsule, Corner};
 use super::field::{Field, TILES};
 use super::moves::Worst;
-use crate::geom::Vec3;
-use crate::geom::surface::{Foot, Patch};
+use crate::geom::surface::{Foot, Patch, SurfaceTree};
 
 /// Deviations of the path between the places where they are known differ by so much of what is allowed from those of a
 /// straight line.
@@ -53,8 +52,7 @@ impl Field<'_> {
             heights: Vec::new(),
             patch,
         };
-        let piece = whole.restrict(first.u, first.v);
-        let bend = Bend::new(&piece, TILES);
+        let bend = Bend::new(self.tree, patch, first.u, first.v);
         let mut stack = vec![first];
         while let Some(cell) = stack.pop() {
             if let Some((axis, best)) = found.cell(&bend, &cell) {
@@ -65,7 +63,7 @@ impl Field<'_> {
     }
 }
 
-/// Bounds of the second derivatives of a piece, mm per square of the whole patch's parameters.
+/// Bounds of the derivatives over a tile, mm per unit, and per square, of its patch's parameters.
 pub(super) struct Bend {
     uu: f64,
     uv: f64,
@@ -75,20 +73,9 @@ pub(super) struct Bend {
 }
 
 impl Bend {
-    pub(super) fn new(piece: &Patch, tiles: u32) -> Bend {
-        let scale = f64::from(tiles);
-        let [u, v] = [piece.hodograph(0), piece.hodograph(1)];
-        let most =
-            |p: &Patch| p.homogeneous().iter().map(|h| Vec3::new(h.x, h.y, h.z).norm()).fold(0.0, f64::max);
-        // A rational patch bends with its weights as well: a generous factor that refinement makes harmless.
-        let rational = if piece.is_rational() { 4.0 } else { 1.0 };
-        Bend {
-            uu: most(&u.hodograph(0)) * scale * scale * rational,
-            uv: most(&u.hodograph(1)) * scale * scale * rational,
-            vv: most(&v.hodograph(1)) * scale * scale * rational,
-            u: most(&u) * scale * rational,
-            v: most(&v) * scale * rational,
-        }
+    pub(super) fn new(tree: &SurfaceTree, patch: usize, u: (f64, f64), v: (f64, f64)) -> Bend {
+        let [u, v, uu, uv, vv] = tree.derivatives(patch, u, v);
+        Bend { uu, uv, vv, u, v }
     }
     /// How far the cell may lie from the hull of its corners, mm.
     pub(super) fn sagitta(&self, du: f64, dv: f64) -> f64 {

@@ -11,6 +11,7 @@
 //! over a way of the length h on which d stays between d_min and d. It takes that the followed point stays within its
 //! patch, which it does where the feet are farther from the patches' edges than it can go.
 
+use super::slide::sizes;
 use super::{SurfaceTree, hull};
 use crate::geom::Point3;
 use crate::geom::surface::interval::Interval;
@@ -50,13 +51,13 @@ struct Swing {
 impl Swing {
     const NONE: Swing = Swing { second: [0.0; 3], rate: [0.0; 2] };
 
-    fn new([ru, rv, ruu, ruv, rvv]: &[[Interval; 3]; 5]) -> Swing {
-        let size = |d: &[Interval; 3]| d.iter().map(|i| i.magnitude() * i.magnitude()).sum::<f64>().sqrt();
+    fn new(derivatives: &[[Interval; 3]; 5]) -> Swing {
+        let ([ru, rv, ..], [u, v, uu, uv, vv]) = (derivatives, sizes(derivatives));
         let cross = |a: usize, b: usize| ru[a] * rv[b] - ru[b] * rv[a];
         let least = |i: Interval| if i.lo > 0.0 { i.lo } else { (-i.hi).max(0.0) };
         let area =
             [cross(1, 2), cross(2, 0), cross(0, 1)].map(|i| least(i) * least(i)).iter().sum::<f64>().sqrt();
-        Swing { second: [ruu, ruv, rvv].map(size), rate: [size(rv) / area, size(ru) / area] }
+        Swing { second: [uu, uv, vv], rate: [v / area, u / area] }
     }
 
     fn with(&self, other: &Swing) -> Swing {

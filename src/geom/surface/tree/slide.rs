@@ -2,6 +2,7 @@
 
 use super::{Derivatives, Foot, SurfaceTree};
 use crate::geom::Vec3;
+use crate::geom::surface::interval::Interval;
 
 /// What becomes of a point that slides in a straight line of its patch's parameters.
 #[derive(Debug, Clone, Copy)]
@@ -14,11 +15,22 @@ pub struct Slide {
 
 /// Bounds of |r_uu|, |r_uv|, |r_vv| over a patch.
 pub(super) fn swings(derivatives: &Derivatives) -> [f64; 3] {
-    let [_, _, uu, uv, vv] = derivatives.boxes((0.0, 1.0), (0.0, 1.0));
-    [uu, uv, vv].map(|d| d.iter().map(|i| i.magnitude() * i.magnitude()).sum::<f64>().sqrt())
+    let [_, _, uu, uv, vv] = sizes(&derivatives.boxes((0.0, 1.0), (0.0, 1.0)));
+    [uu, uv, vv]
+}
+
+/// The largest lengths of vectors in boxes.
+pub(super) fn sizes(boxes: &[[Interval; 3]; 5]) -> [f64; 5] {
+    boxes.map(|d| d.iter().map(|i| i.magnitude() * i.magnitude()).sum::<f64>().sqrt())
 }
 
 impl SurfaceTree {
+    /// Bounds of |r_u|, |r_v|, |r_uu|, |r_uv|, |r_vv| over a rectangle of a patch.
+    #[must_use]
+    pub fn derivatives(&self, patch: usize, u: (f64, f64), v: (f64, f64)) -> [f64; 5] {
+        sizes(&self.derivatives[patch].boxes(u, v))
+    }
+
     /// How a foot can follow a velocity over a time `h` without leaving its patch.
     #[must_use]
     pub fn slide(&self, foot: &Foot, velocity: Vec3, h: f64) -> Slide {
