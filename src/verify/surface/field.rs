@@ -7,8 +7,8 @@ use super::buckets::Buckets;
 use super::capsule::{Capsule, Corner};
 use super::moves::Worst;
 use crate::cl::{Finish, Operation};
-use crate::geom::{Point2, Point3};
 use crate::geom::surface::{Foot, SurfaceTree};
+use crate::geom::{Point2, Point3};
 use crate::math;
 
 /// Tiles of a patch in each direction, checked in parallel.
