@@ -89,12 +89,13 @@ pub struct Patch {
     degree: [usize; 2],
     poles: Vec<Homogeneous>,
     rational: bool,
-    /// A bicubic patch of a net in powers of u and v: points of these are asked for by the million.
-    powers: Option<Box<Powers>>,
+    /// Coefficients of uⁱ vʲ, row by row, of a patch of a net: points of these are asked for by the million. None for parts
+    /// of patches, and where the degree is so high that powers lose too many digits.
+    powers: Vec<Homogeneous>,
 }
 
-/// Coefficients of uⁱ vʲ, row by row.
-type Powers = [Homogeneous; 16];
+/// Degrees up to which powers are used: they lose three digits at most.
+const FEW: usize = 5;
 
 impl Patch {
     /// A patch from its poles, row by row, and their weights (1 when `None`).
@@ -120,7 +121,7 @@ impl Patch {
             Homogeneous::new(p.x * w, p.y * w, p.z * w, w)
         };
         let poles: Vec<Homogeneous> = poles.iter().enumerate().map(lift).collect();
-        let powers = (rows == 4 && columns == 4).then(|| Box::new(powers(&poles)));
+        let powers = if rows.max(columns) <= FEW + 1 { powers(&poles, columns) } else { Vec::new() };
         Some(Patch { degree: [rows - 1, columns - 1], poles, rational, powers })
     }
     /// Degree in u and v.
@@ -180,10 +181,13 @@ impl Patch {
     }
     /// The homogeneous point and its derivatives, in the order of [`SurfaceJet`].
     fn sums(&self, u: f64, v: f64) -> [Homogeneous; 6] {
-        if let Some(powers) = &self.powers {
+        let [m, n] = self.degree;
+        if let (Ok(powers), 3) = (self.powers.as_slice().try_into(), m) {
             return bicubic(powers, u, v);
         }
-        let [m, n] = self.degree;
+        if !self.powers.is_empty() {
+            return horner(&self.powers, n + 1, u, v);
+        }
         let (b, c) = (bernstein_jet(m, u), bernstein_jet(n, v));
         let mut out = [Homogeneous::zeros(); 6];
         for (i, row) in self.poles.chunks_exact(n + 1).enumerate() {
@@ -208,7 +212,7 @@ impl Patch {
         for i in 0..=m {
             blossom_line(&mut poles, i * (n + 1), 1, n, v);
         }
-        Patch { degree: self.degree, poles, rational: self.rational, powers: None }
+        Patch { degree: self.degree, poles, rational: self.rational, powers: Vec::new() }
     }
     /// Homogeneous poles of ∂/∂u (`axis` 0) or ∂/∂v (`axis` 1) of the homogeneous patch.
     #[must_use]
@@ -227,7 +231,7 @@ impl Patch {
                 });
             }
         }
-        Patch { degree: [rows_out - 1, columns_out - 1], poles, rational: self.rational, powers: None }
+        Patch { degree: [rows_out - 1, columns_out - 1], poles, rational: self.rational, powers: Vec::new() }
     }
 }
 
@@ -268,20 +272,49 @@ fn bernstein(n: usize, t: f64) -> Basis {
     b
 }
 
-/// A bicubic patch in powers of u and v.
-fn powers(poles: &[Homogeneous]) -> Powers {
-    // Of a line of four poles.
-    let line = |[a, b, c, d]: [Homogeneous; 4]| {
-        [a, (b - a) * 3.0, ((c - b) - (b - a)) * 3.0, (d - a) - (c - b) * 3.0]
-    };
-    let row = |i: usize| line(core::array::from_fn(|j| poles[4 * i + j]));
-    let rows: [[Homogeneous; 4]; 4] = core::array::from_fn(row);
-    let columns: [[Homogeneous; 4]; 4] = core::array::from_fn(|j| line(rows.map(|r| r[j])));
-    core::array::from_fn(|k| columns[k % 4][k / 4])
+/// A patch in powers of u and v.
+fn powers(poles: &[Homogeneous], columns: usize) -> Vec<Homogeneous> {
+    let mut out = poles.to_vec();
+    let rows = poles.len() / columns;
+    (0..rows).for_each(|i| line_in_powers(&mut out, i * columns, 1, columns - 1));
+    (0..columns).for_each(|j| line_in_powers(&mut out, j, columns, rows - 1));
+    out
+}
+
+/// One line of poles (start, stride, degree): the k-th coefficient is the k-th difference, (n over k) times.
+fn line_in_powers(poles: &mut [Homogeneous], start: usize, stride: usize, degree: usize) {
+    let mut choose = 1.0;
+    for k in 1..=degree {
+        for i in (k..=degree).rev() {
+            let before = poles[start + (i - 1) * stride];
+            poles[start + i * stride] -= before;
+        }
+    }
+    for k in 1..=degree {
+        choose *= crate::math::count(degree + 1 - k) / crate::math::count(k);
+        poles[start + k * stride] *= choose;
+    }
+}
+
+/// The homogeneous point of a patch and its derivatives, by Horner's rule.
+fn horner(powers: &[Homogeneous], columns: usize, u: f64, v: f64) -> [Homogeneous; 6] {
+    let zero = Homogeneous::zeros;
+    let mut out = [zero(); 6];
+    for row in powers.chunks_exact(columns).rev() {
+        let mut r = [zero(); 3];
+        for a in row.iter().rev() {
+            r = [r[0] * v + a, r[1] * v + r[0], r[2] * v + r[1]];
+        }
+        let [p, pu, pv, puu, puv, pvv] = out;
+        out = [p * u + r[0], pu * u + p, pv * u + r[1], puu * u + pu, puv * u + pv, pvv * u + r[2]];
+    }
+    // Horner's scheme gives half of a second derivative.
+    let [p, pu, pv, puu, puv, pvv] = out;
+    [p, pu, pv, puu * 2.0, puv, pvv * 2.0]
 }
 
 /// The homogeneous point of a bicubic patch and its derivatives, by Horner's rule.
-fn bicubic(powers: &Powers, u: f64, v: f64) -> [Homogeneous; 6] {
+fn bicubic(powers: &[Homogeneous; 16], u: f64, v: f64) -> [Homogeneous; 6] {
     let row = |i: usize| {
         let [a, b, c, d] = [powers[4 * i], powers[4 * i + 1], powers[4 * i + 2], powers[4 * i + 3]];
         let dv = d * v;
@@ -370,6 +403,42 @@ mod tests {
         differences_agree(&wavy(None));
         let weights: Vec<f64> = (0..16).map(|k| 1.0 + 0.3 * f64::from(k % 5)).collect();
         differences_agree(&wavy(Some(&weights)));
+    }
+
+    #[test]
+    fn powers_and_bernstein_polynomials_agree() {
+        for (rows, columns) in [(2, 2), (2, 6), (3, 5), (4, 4), (6, 3), (6, 6), (7, 4)] {
+            let at = |k: usize| crate::math::count(k * k % 7) - crate::math::count(k % 3);
+            let poles: Vec<Point3> = (0..rows * columns)
+                .map(|k| {
+                    Point3::new(20.0 * crate::math::count(k / columns) + at(k), 15.0 * at(k + 1), at(3 * k))
+                })
+                .collect();
+            let weights: Vec<f64> =
+                (0..poles.len()).map(|k| 1.0 + 0.25 * crate::math::count(k % 4)).collect();
+            for weights in [None, Some(weights.as_slice())] {
+                let patch = Patch::new(rows, columns, &poles, weights).expect("a sound patch");
+                // A part of a patch has no powers.
+                let whole = patch.restrict((0.0, 1.0), (0.0, 1.0));
+                for (u, v) in [(0.0, 0.0), (1.0, 1.0), (0.3, 0.8), (0.55, 0.0), (1.0, 0.21)] {
+                    let (a, b) = (patch.jet(u, v), whole.jet(u, v));
+                    let pairs = [
+                        (a.p.coords, b.p.coords),
+                        (a.u, b.u),
+                        (a.v, b.v),
+                        (a.uu, b.uu),
+                        (a.uv, b.uv),
+                        (a.vv, b.vv),
+                    ];
+                    for (a, b) in pairs {
+                        assert!(
+                            (a - b).norm() < 1e-11 * (1.0 + b.norm()),
+                            "{rows} x {columns} at {u}, {v}: {a} {b}"
+                        );
+                    }
+                }
+            }
+        }
     }
 
     #[test]
