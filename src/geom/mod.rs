@@ -37,6 +37,18 @@ pub fn cross(a: Vec2, b: Vec2) -> f64 {
     a.x * b.y - a.y * b.x
 }
 
+/// The point of the straight way from `a` to `b` that is nearest to `p`.
+#[must_use]
+pub fn nearest_on_way<const D: usize>(
+    a: nalgebra::Point<f64, D>,
+    b: nalgebra::Point<f64, D>,
+    p: nalgebra::Point<f64, D>,
+) -> nalgebra::Point<f64, D> {
+    let way = b - a;
+    let t = ((p - a).dot(&way) / way.norm_squared().max(1e-300)).clamp(0.0, 1.0);
+    a + way * t
+}
+
 /// A side of a directed curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, serde::Serialize)]
 pub enum Side {

@@ -143,6 +143,14 @@ pub(super) const CUT: Choices = choices(
     "CLIMB",
 );
 
+pub(super) const STOCK: Choices = with(
+    "stock",
+    &[word("STOCK", "the blank")],
+    &[value("stock", Kind::Entity(&[EntityKind::Stock]), "stock")],
+    true,
+    "",
+);
+
 const DEPTH: Choices = with(
     "depth",
     &[word("DEPTH", "bottom below Z0")],
@@ -230,13 +238,7 @@ const CAM: Form = form(
     "plate cam from round stock",
     &[value("cam", Kind::Entity(&[EntityKind::Cam]), "the cam")],
     &[
-        with(
-            "stock",
-            &[word("STOCK", "the blank")],
-            &[value("stock", Kind::Entity(&[EntityKind::Stock]), "stock")],
-            true,
-            "",
-        ),
+        STOCK,
         with(
             "step",
             &[word("STEP", "largest axial step, and largest radial step unless WIDTH gives that")],

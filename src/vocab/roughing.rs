@@ -1,6 +1,6 @@
 //! Roughing of nets: the forms of `ROUGH` that take one.
 
-use super::operations::CUT;
+use super::operations::{CUT, STOCK};
 use super::surfaces::{ALONG, LEAVE, ORDER, STEP};
 use super::{Choices, EntityKind, Form, Item, Kind, POSITIVE, Range, form, value, with, word};
 use crate::units::Dim;
@@ -33,13 +33,7 @@ pub(super) const LEVELS: Form = form(
     "a net in levels from a blank: waterlines of the surface with what is left on it, cleared by rings",
     &[NET, Item::Word("how", &[word("LEVELS", "planes, each cleared from the inside outwards")])],
     &[
-        with(
-            "stock",
-            &[word("STOCK", "the blank")],
-            &[value("stock", Kind::Entity(&[EntityKind::Stock]), "stock")],
-            true,
-            "",
-        ),
+        STOCK,
         with(
             "step",
             &[word(

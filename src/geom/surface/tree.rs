@@ -447,8 +447,8 @@ fn middle_distance(node: &Node, x: Point3) -> f64 {
     at(0) * at(0) + at(1) * at(1) + at(2) * at(2)
 }
 
-fn box_distance(node: &Node, x: Point3) -> f64 {
-    let beyond = |i: usize| (node.low[i] - x[i]).max(x[i] - node.high[i]).max(0.0);
+fn box_distance(low: &[f64; 3], high: &[f64; 3], x: Point3) -> f64 {
+    let beyond = |i: usize| (low[i] - x[i]).max(x[i] - high[i]).max(0.0);
     let (dx, dy, dz) = (beyond(0), beyond(1), beyond(2));
     (dx * dx + dy * dy + dz * dz).sqrt()
 }

@@ -12,7 +12,7 @@ use super::family::Family;
 use super::spread::{COLUMNS, Line};
 use crate::geom::extremum::Section;
 use crate::geom::surface::Contact;
-use crate::geom::{Point3, Vec3};
+use crate::geom::{Point3, Vec3, nearest_on_way};
 use crate::math::count;
 
 /// Steps of the search between columns.
@@ -99,11 +99,7 @@ impl Row {
             return f64::INFINITY;
         };
         let Some(q) = foot(k) else { return f64::INFINITY };
-        let chord = |end: Option<Point3>| {
-            let way = end.unwrap_or(q) - q;
-            let t = ((p - q).dot(&way) / way.norm_squared().max(1e-300)).clamp(0.0, 1.0);
-            (p - q - way * t).norm()
-        };
+        let chord = |end: Option<Point3>| (p - nearest_on_way(q, end.unwrap_or(q), p)).norm();
         chord(k.checked_sub(1).and_then(foot)).min(chord(foot(k + 1)))
     }
 

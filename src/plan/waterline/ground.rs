@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 use crate::geom::surface::heights::Blank;
 use crate::geom::surface::{Contact, SurfaceTree, drop_ball};
-use crate::geom::{Point2, Vec2};
+use crate::geom::{Point2, Vec2, nearest_on_way};
 use crate::math::{ceil_to_usize, count};
 
 /// A ball that is let down on the surface.
@@ -267,7 +267,7 @@ fn nearest(outline: &[Point2], p: Point2) -> (f64, Point2) {
     let mut inside = false;
     for (i, a) in outline.iter().enumerate() {
         let b = outline[(i + 1) % outline.len()];
-        let q = on_segment(*a, b, p);
+        let q = nearest_on_way(*a, b, p);
         let off = (p - q).norm();
         if off < least.0 {
             least = (off, q);
@@ -279,14 +279,7 @@ fn nearest(outline: &[Point2], p: Point2) -> (f64, Point2) {
     if inside { (-least.0, least.1) } else { least }
 }
 
-/// The point of a straight way that is nearest to another.
-fn on_segment(a: Point2, b: Point2, p: Point2) -> Point2 {
-    let way = b - a;
-    let t = ((p - a).dot(&way) / way.norm_squared().max(1e-300)).clamp(0.0, 1.0);
-    a + way * t
-}
-
 /// Distance of a point from a straight way, mm.
 pub(super) fn to_segment(a: Point2, b: Point2, p: Point2) -> f64 {
-    (p - on_segment(a, b, p)).norm()
+    (p - nearest_on_way(a, b, p)).norm()
 }

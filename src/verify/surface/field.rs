@@ -8,7 +8,7 @@ use super::capsule::{Capsule, Corner};
 use super::moves::Worst;
 use crate::cl::{Finish, Operation};
 use crate::geom::surface::{Foot, SurfaceTree};
-use crate::geom::{Point2, Point3};
+use crate::geom::{Point2, Point3, nearest_on_way};
 use crate::math;
 
 /// Tiles of a patch in each direction, checked in parallel.
@@ -184,7 +184,5 @@ impl<'a> Field<'a> {
 
 /// Square distance of a move from a point in plan.
 fn beside(p: Point2, swept: &Swept) -> f64 {
-    let (from, way) = (swept.from.xy(), swept.to.xy() - swept.from.xy());
-    let share = ((p - from).dot(&way) / way.norm_squared().max(1e-300)).clamp(0.0, 1.0);
-    (p - from - way * share).norm_squared()
+    (p - nearest_on_way(swept.from.xy(), swept.to.xy(), p)).norm_squared()
 }

@@ -12,7 +12,7 @@
 //! patch, which it does where the feet are farther from the patches' edges than it can go.
 
 use super::slide::sizes;
-use super::{SurfaceTree, hull};
+use super::{SurfaceTree, box_distance, hull};
 use crate::geom::Point3;
 use crate::geom::surface::interval::Interval;
 use crate::geom::surface::patch::Patch;
@@ -34,8 +34,7 @@ impl Box3 {
         Box3 { low: hull.map(|i| i.lo), high: hull.map(|i| i.hi) }
     }
     fn distance(&self, x: Point3) -> f64 {
-        let beside = |i: usize| (self.low[i] - x[i]).max(x[i] - self.high[i]).max(0.0);
-        (beside(0) * beside(0) + beside(1) * beside(1) + beside(2) * beside(2)).sqrt()
+        box_distance(&self.low, &self.high, x)
     }
 }
 

@@ -52,7 +52,8 @@ impl<'a> Quest<'a> {
 
     pub(super) fn run(&mut self, stack: &mut Vec<(f64, u32)>) {
         stack.clear();
-        stack.push((box_distance(&self.tree.nodes[0], self.x), 0));
+        let root = &self.tree.nodes[0];
+        stack.push((box_distance(&root.low, &root.high, self.x), 0));
         while let Some((bound, next)) = stack.pop() {
             if self.best.distance < self.enough {
                 return;
@@ -71,7 +72,8 @@ impl<'a> Quest<'a> {
                 Kind::Leaf(leaf) => self.leaf(&self.tree.leaves[leaf as usize]),
                 Kind::Branch(first, count) => {
                     for child in first..first + count {
-                        let bound = box_distance(&self.tree.nodes[child as usize], self.x);
+                        let node = &self.tree.nodes[child as usize];
+                        let bound = box_distance(&node.low, &node.high, self.x);
                         if bound < self.limit {
                             stack.push((bound, child));
                         }
