@@ -1,8 +1,13 @@
-//! The post of the guide: a controller written in one file, built and proven.
+//! Controllers written in one file from the guide alone: that of the guide itself, those under `examples/posts`, one of the
+//! tests. All are built and proven.
 
 mod common;
 
+use std::path::Path;
+
+use common::Directory;
 use common::scratch::Scratch;
+use partwright::driver::{self, Options};
 
 const POST: &str = include_str!("data/posts/router.post.toml");
 
@@ -28,4 +33,55 @@ fn a_controller_written_in_one_file_makes_proven_programs() {
     let text = String::from_utf8(build.stdout).expect("ASCII");
     assert!(text.lines().count() > 20 && text.ends_with("M2\r\n"), "{text}");
     insta::assert_snapshot!("custom_post_router", text.replace("\r\n", "\n"));
+}
+
+/// Posts of controls that are not built in, by their files; all but the last are for people to look at.
+const POSTS: [&str; 3] =
+    ["examples/posts/fagor.post.toml", "examples/posts/num.post.toml", "tests/data/posts/syntec.post.toml"];
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+#[test]
+fn every_post_of_the_examples_is_tested() {
+    for path in common::find(&root().join("examples/posts"), "toml") {
+        let name = path.strip_prefix(root()).expect("inside").to_string_lossy().replace('\\', "/");
+        assert!(POSTS.contains(&name.as_str()), "{name} is not in the list of this test");
+    }
+}
+
+#[test]
+fn posts_of_other_controls_have_nothing_to_complain_about() {
+    for post in POSTS {
+        let check = Scratch::new("other-controls").run(&[
+            "post",
+            "check",
+            &root().join(post).to_string_lossy(),
+            "--deny",
+            "warnings",
+        ]);
+        assert!(check.status.success(), "{post}: {}", String::from_utf8_lossy(&check.stderr));
+    }
+}
+
+#[test]
+fn posts_of_other_controls_make_proven_programs_of_all_examples() {
+    let kinds = ["apt", "cls", "aptsource"];
+    let folder = root().join("examples");
+    let examples = kinds.iter().flat_map(|kind| common::find(&folder, kind));
+    for path in examples.filter(|p| p.parent() == Some(folder.as_path())) {
+        let name = path.strip_prefix(root()).expect("inside").to_string_lossy().replace('\\', "/");
+        let options = Options { posts: POSTS.map(str::to_owned).to_vec(), ..Options::default() };
+        let build = driver::build(&name, &Directory(root().to_path_buf()), &options);
+        let proven = build.outputs.iter().filter_map(|output| Some((output, output.proven.as_ref()?)));
+        let proven: Vec<_> = proven.collect();
+        assert_eq!(proven.len(), POSTS.len(), "{name}: {:?}", build.diagnostics);
+        if ["plate_cam.apt", "nx_cover.cls"].iter().any(|shown| name.ends_with(shown)) {
+            for (output, proven) in proven {
+                let name = name.trim_start_matches("examples/");
+                insta::assert_snapshot!(format!("{name}.{}", output.post), proven.text());
+            }
+        }
+    }
 }

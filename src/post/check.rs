@@ -8,6 +8,7 @@ use super::tree;
 use super::variables::Scope;
 use crate::diag::{Code, Diagnostic, codes, did_you_mean};
 use crate::ir::CycleName;
+use crate::readback;
 use crate::source::Span;
 use crate::units::LengthUnit;
 
@@ -23,10 +24,41 @@ pub fn check(dialect: &Dialect, templates: bool) -> Vec<Diagnostic> {
     check_tool_change(dialect, &mut errors);
     check_rotary(dialect, &mut errors);
     check_comments(dialect, &mut errors);
+    check_extension(dialect, &mut errors);
+    check_control(dialect, &mut errors);
     if templates {
         check_templates(dialect, &mut errors);
     }
     errors
+}
+
+/// What is said behind a control's name must mean something; `post check` names the controls there are.
+fn check_control(dialect: &Dialect, errors: &mut Vec<Diagnostic>) {
+    let spec = &dialect.spec.post;
+    let given = core::iter::once(("post.control", &spec.control))
+        .chain(spec.control_when.values().map(|control| ("post.control-when", control)));
+    for (path, control) in given {
+        if let Err(unknown) = readback::needs(control)
+            && unknown.name().is_none()
+        {
+            let error = at(dialect, path, &codes::post::WRONG_VALUE, unknown.to_string());
+            errors.push(error.help("docs/readers.md lists the statements that a machine may make"));
+        }
+    }
+}
+
+/// Longest extension of NC files.
+const MAX_EXTENSION: usize = 16;
+
+/// The extension becomes part of a file name, and of nothing else.
+fn check_extension(dialect: &Dialect, errors: &mut Vec<Diagnostic>) {
+    let extension = dialect.extension();
+    let fits = (1..=MAX_EXTENSION).contains(&extension.len());
+    if !fits || !extension.bytes().all(|b| b.is_ascii_alphanumeric() || matches!(b, b'-' | b'_')) {
+        let message = format!("`{}` is no extension of a file", extension.escape_debug());
+        let help = format!("1 to {MAX_EXTENSION} letters, digits, `-` and `_`, without the point");
+        errors.push(at(dialect, "post.extension", &codes::post::WRONG_VALUE, message).help(help));
+    }
 }
 
 /// A message at the value of `path`, or without a place when no file says it.

@@ -188,18 +188,14 @@ impl Lint<'_> {
 
     /// The control that reads the program back.
     fn control(&mut self) {
-        let control = self.dialect.control();
-        if readback::needs(control).is_some() {
-            return;
-        }
-        let message =
-            format!("no interpreter reads programs of the control `{control}` back: nothing could be proven");
+        let Err(unknown) = readback::needs(self.dialect.control()) else { return };
+        let message = format!("nothing could be proven: {unknown}");
         let finding = at(self.dialect, "post.control", &codes::INEXPRESSIBLE, message);
-        let help = match did_you_mean(control, readback::controls()) {
-            Some(near) => format!("did you mean `{near}`?"),
-            None => format!("there are {}", readback::controls().collect::<Vec<_>>().join(", ")),
-        };
-        self.findings.push(finding.help(help));
+        let near = unknown.name().and_then(|name| did_you_mean(name, readback::controls()));
+        self.findings.push(match near {
+            Some(near) => finding.help(format!("did you mean `{near}`?")),
+            None => finding,
+        });
     }
 
     /// Codes that mean two things.

@@ -21,6 +21,8 @@ mod word;
 #[cfg(test)]
 mod tests;
 
+pub use word::{Statement, statements};
+
 pub(crate) use curve::point as nurbs_point;
 pub use trace::{
     EventKind, Fault, FeedMode, MOST_FAULTS, SpaceCurve, Tilted, Trace, TraceEvent, TraceMove, TracePath,
@@ -65,18 +67,31 @@ pub trait Follow {
     fn assumed(&mut self, what: Fault);
 }
 
-/// No control of this name is known.
+/// No control can be read as this text describes it.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct UnknownControl(pub String);
+pub struct UnknownControl {
+    control: String,
+    why: Option<String>,
+}
+
+impl UnknownControl {
+    /// The name that is unknown; `None` where a statement behind a known one is wrong.
+    #[must_use]
+    pub fn name(&self) -> Option<&str> {
+        self.control.split_whitespace().next().filter(|_| self.why.is_none())
+    }
+}
 
 impl core::fmt::Display for UnknownControl {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        write!(
-            f,
-            "no interpreter for the control '{}'; there are {}",
-            self.0,
-            controls().collect::<Vec<_>>().join(", ")
-        )
+        let control = self.control.split_whitespace().next().unwrap_or_default();
+        match &self.why {
+            Some(why) => write!(f, "what is said of the control '{control}' means nothing: {why}"),
+            None => {
+                let known = controls().collect::<Vec<_>>().join(", ");
+                write!(f, "no interpreter for the control '{control}'; there are {known}")
+            }
+        }
     }
 }
 
@@ -96,13 +111,43 @@ pub struct Needs {
     pub length_offset: bool,
 }
 
-/// What a cut on `control` needs; `None` for an unknown control.
-#[must_use]
-pub fn needs(control: &str) -> Option<Needs> {
-    if control == klartext::NAME || control == apt::NAME {
-        return Some(Needs { tool_change: true, length_offset: false });
+/// What a cut on `control` needs.
+///
+/// # Errors
+/// When no control can be read as the text says.
+pub fn needs(control: &str) -> Result<Needs, UnknownControl> {
+    match find(control)? {
+        Found::Word(stated) => Ok(Needs {
+            tool_change: stated.rules.tool_change,
+            length_offset: stated.rules.length_offset,
+        }),
+        Found::Klartext | Found::Apt => Ok(Needs { tool_change: true, length_offset: false }),
     }
-    word::find(control).map(|(r, _)| Needs { tool_change: r.tool_change, length_offset: r.length_offset })
+}
+
+/// A control by its family.
+enum Found {
+    Word(Box<word::Stated>),
+    Klartext,
+    Apt,
+}
+
+fn find(control: &str) -> Result<Found, UnknownControl> {
+    let refused = |why: Option<String>| UnknownControl { control: control.to_owned(), why };
+    match word::find(control) {
+        Some(Ok(stated)) => Ok(Found::Word(Box::new(stated))),
+        Some(Err(why)) => Err(refused(Some(why))),
+        None => {
+            let mut words = control.split_whitespace();
+            let found = match words.next() {
+                Some(klartext::NAME) => Found::Klartext,
+                Some(apt::NAME) => Found::Apt,
+                _ => return Err(refused(None)),
+            };
+            let more = words.next().map(|word| format!("`{word}`: only word-address controls take statements"));
+            more.map_or(Ok(found), |why| Err(refused(Some(why))))
+        }
+    }
 }
 
 /// Executes a program and gathers what the machine does.
@@ -155,11 +200,10 @@ impl<'a> Interpreter<'a> {
     /// # Errors
     /// When no control has this name.
     pub fn new(control: &str, setup: &'a MachineSetup) -> Result<Self, UnknownControl> {
-        let reader = match word::find(control) {
-            Some((rules, renamed)) => Reader::Word(Box::new(word::Reader::new(rules, renamed, setup))),
-            None if control == klartext::NAME => Reader::Klartext(Box::new(klartext::Reader::new(setup))),
-            None if control == apt::NAME => Reader::Apt(Box::new(apt::Reader::new(setup))),
-            None => return Err(UnknownControl(control.to_owned())),
+        let reader = match find(control)? {
+            Found::Word(stated) => Reader::Word(Box::new(word::Reader::new(*stated, setup))),
+            Found::Klartext => Reader::Klartext(Box::new(klartext::Reader::new(setup))),
+            Found::Apt => Reader::Apt(Box::new(apt::Reader::new(setup))),
         };
         Ok(Interpreter { reader, line: 0 })
     }

@@ -247,7 +247,7 @@ fn judge(
     plan: &Plan<'_>,
 ) -> Result<Judged, readback::UnknownControl> {
     let setup = setup(target);
-    let needs = readback::needs(control).ok_or_else(|| readback::UnknownControl(control.to_owned()))?;
+    let needs = readback::needs(control)?;
     let trace = readback::run(emitted.text.as_bytes(), control, &setup)?;
     let moves = placed(&trace, plan.lines);
     let happenings = happenings(&trace, plan.lines);

@@ -55,7 +55,7 @@ impl<'s> Stream<'s> {
     /// # Errors
     /// When no control has this name.
     pub fn new(control: &str, post: &str, setup: &'s MachineSetup) -> Result<Self, readback::UnknownControl> {
-        let needs = readback::needs(control).ok_or_else(|| readback::UnknownControl(control.to_owned()))?;
+        let needs = readback::needs(control)?;
         Ok(Stream {
             interpreter: Interpreter::new(control, setup)?,
             needs,

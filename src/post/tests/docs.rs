@@ -9,6 +9,7 @@ use crate::post::tree::describe;
 use crate::post::variables::{Scope, VARIABLES};
 
 const GUIDE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/posts.md");
+const READERS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/readers.md");
 const ROUTER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/posts/router.post.toml");
 
 /// What a key holds, in words.
@@ -65,6 +66,26 @@ fn with_section(text: &str, name: &str, section: &str) -> String {
     let (before, rest) = text.split_once(&open).expect("the mark is in the guide");
     let (_, after) = rest.split_once(&close).expect("the end is in the guide");
     format!("{before}{open}{}\n{close}{after}", section.trim_end())
+}
+
+fn statements() -> String {
+    let mut out = String::from("| statement | value | what |\n|---|---|---|\n");
+    for statement in crate::readback::statements() {
+        let _ = writeln!(out, "| `{}=` | {} | {} |", statement.name, statement.values, statement.doc);
+    }
+    out
+}
+
+#[test]
+#[allow(clippy::disallowed_methods)] // Writes the page only when asked to.
+fn the_guide_to_readers_has_every_statement() {
+    let page = std::fs::read_to_string(READERS).unwrap();
+    let wanted = with_section(&page, "statements", &statements());
+    let update = std::env::var("UPDATE_DOCS").is_ok();
+    if update {
+        std::fs::write(READERS, &wanted).unwrap();
+    }
+    assert!(page == wanted || update, "run UPDATE_DOCS=1 cargo test --lib guide");
 }
 
 #[test]

@@ -147,6 +147,12 @@ fn overrides_go_through_the_same_checks() {
         )
     };
     assert_eq!(set("post.extension", "tap").unwrap().extension(), "tap");
+    for bad in ["../../x", "", "a.b", "n c", "seventeen-letters", "tap\n", "ü"] {
+        assert_eq!(set("post.extension", bad).unwrap_err()[0].code.id, "E0704", "{bad}");
+    }
+    assert_eq!(set("post.control", "linuxcnc dwell=K:0.01s").unwrap().control(), "linuxcnc dwell=K:0.01s");
+    let wrong = set("post.control", "linuxcnc dwell=K").unwrap_err();
+    assert!(wrong[0].code.id == "E0704" && wrong[0].message.contains("ADDRESS:UNIT"), "{wrong:?}");
     let finer = set("numbers.linear-decimals", "5").unwrap();
     assert_eq!(finer.capabilities(LengthUnit::Millimetre, None).unwrap().grid.linear_decimals, 5);
     assert_eq!(set("words.x.decimals", "5").unwrap_err()[0].code.id, "E0708");

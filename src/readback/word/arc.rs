@@ -20,8 +20,6 @@ const ON_CIRCLE: f64 = 1e-9;
 /// Why an arc can't be drawn.
 struct Refusal(String);
 
-/// Letters of the offsets along X, Y, Z.
-const OFFSETS: [u8; 3] = *b"IJK";
 /// Letters of the axes.
 const AXES: [u8; 3] = *b"XYZ";
 
@@ -59,8 +57,8 @@ impl Machine<'_> {
         out: &mut Out<'_, S>,
     ) {
         let plane = self.stated_plane(out);
-        let [first, second] = plane.letters(OFFSETS);
-        *used |= (self.axis_words() | bit(first) | bit(second) | bit(b'R')) & block.seen;
+        let [first, second] = plane.letters(self.rules.arc_offsets);
+        *used |= (self.axis_words() | bit(first) | bit(second) | bit(self.rules.arc_radius)) & block.seen;
         let target = self.target(block, out);
         let [a, b] = plane.letters(AXES);
         if self.rules.arc_needs_end && block.seen & (bit(a) | bit(b)) == 0 {
@@ -102,9 +100,9 @@ impl Machine<'_> {
         }
         let at = |p: &[f64; 4]| Point2::new(p[a], p[b]);
         let (start, end) = (at(&self.state.position), at(&target.to));
-        let [first, second] = plane.letters(OFFSETS);
+        let [first, second] = plane.letters(self.rules.arc_offsets);
         let offsets = block.has(first) || block.has(second);
-        let centre = match self.length(block, b'R') {
+        let centre = match self.length(block, self.rules.arc_radius) {
             Some(_) if offsets && !self.rules.radius_wins => return say("R and I J in one arc"),
             Some(radius) => self.centre_by_radius(start, end, radius, clockwise)?,
             None if offsets => self.centre_by_offsets(block, [first, second], start, out)?,
@@ -196,6 +194,9 @@ impl Machine<'_> {
                 "neither G90.1 nor G91.1 before the first arc: what I J K count from is a setting",
             );
         }
+        if self.rules.arc_absolute && self.state.incremental == Some(true) {
+            return Err(Refusal("an arc under G91, whose centre this reader does not follow".to_owned()));
+        }
         let [first, second] = letters.map(|l| self.length(block, l));
         if let Some(absolute) =
             block.words.as_ref().map(|w| w.absolute).filter(|a| a & (bit(letters[0]) | bit(letters[1])) != 0)
@@ -213,8 +214,8 @@ impl Machine<'_> {
         match (first, second) {
             (Some(i), Some(j)) => Ok(Point2::new(i, j)),
             _ => {
-                let [a, b] = letters.map(char::from);
-                Err(Refusal(format!("{a} and {b} must both stand in an arc under G90.1")))
+                let [a, b] = letters.map(|l| self.rules.address(l));
+                Err(Refusal(format!("{a} and {b} must both stand in an arc with an absolute centre")))
             }
         }
     }
@@ -264,7 +265,7 @@ impl Machine<'_> {
             )));
         }
         let difference = (r1 - r2).abs();
-        if difference <= (self.rules.largest_difference)(r1.max(r2), self.state.inch == Some(true)) {
+        if self.rules.arc_fits(difference, r1.max(r2), self.state.inch == Some(true)) {
             return Ok(());
         }
         Err(Refusal(format!(

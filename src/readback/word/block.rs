@@ -1,14 +1,26 @@
 //! One block of a word-address program: cutting the line into words.
 
-use super::rules::{Frame, Rules};
+use super::renamed::{self, Meant, Renamed};
+use super::rules::{ADDRESSES, Frame, Rules};
 use crate::readback::number::{Number, NumberError, number};
 
 /// Most G (or M) codes that a block may hold before it is refused.
 const MAX_CODES: usize = 16;
 
+/// Addresses that a block may hold: letters, and longer ones behind them.
+const PLACES: usize = 26 + ADDRESSES;
+
 /// Bit of an address letter in a mask.
 pub(in crate::readback) const fn bit(letter: u8) -> u32 {
     1 << (letter - b'A')
+}
+
+/// The mask of some letters.
+pub(in crate::readback) const fn letters(of: &[u8]) -> u32 {
+    match of {
+        [] => 0,
+        [first, rest @ ..] => bit(*first) | letters(rest),
+    }
 }
 
 /// The G or M codes of a block, in tenths (G5.2 is 52).
@@ -59,7 +71,7 @@ pub(in crate::readback) struct Block {
     pub name: bool,
     /// Words of a SINUMERIK block that no other control has.
     pub words: Option<Box<super::sinumerik::Words>>,
-    values: [f64; 26],
+    values: [f64; PLACES],
 }
 
 impl Block {
@@ -91,15 +103,28 @@ impl Block {
         }
     }
     /// Takes the codes as the reader calls them; what it calls otherwise than the machine is none of the machine's.
-    pub(super) fn rename(&mut self, renamed: &[super::renamed::Renamed], fault: &mut dyn FnMut(String)) {
+    pub(super) fn rename(&mut self, renamed: &[Renamed], fault: &mut dyn FnMut(String)) {
         for (letter, codes) in [(b'G', &mut self.g), (b'M', &mut self.m)] {
-            for code in codes.items.iter_mut().take(codes.len) {
-                if let Some(known) = renamed.iter().find(|r| r.letter == letter && r.written == *code) {
-                    *code = known.meant;
-                } else if let Some(other) = renamed.iter().find(|r| r.letter == letter && r.meant == *code) {
-                    let [written, meant] = other.names();
-                    fault(format!("unknown code {meant}: this machine calls it {written}"));
-                }
+            let written = core::mem::take(codes);
+            for code in written.iter() {
+                let known = renamed.iter().find(|r| r.letter == letter && r.written == code);
+                let other = renamed.iter().find(|r| r.letter == letter && r.meant == Meant::Code(code));
+                let meant = match (known.map(|r| r.meant), other) {
+                    (Some(Meant::Nothing), _) => continue,
+                    (Some(Meant::Unknown), _) => {
+                        fault(format!("unknown code {}", renamed::name(letter, code)));
+                        continue;
+                    }
+                    (Some(Meant::Code(meant)), _) => meant,
+                    (None, Some(other)) => {
+                        let (meant, written) = (renamed::name(letter, code), other.name());
+                        fault(format!("unknown code {meant}: this machine calls it {written}"));
+                        code
+                    }
+                    (None, None) => code,
+                };
+                // There were no more of them before.
+                codes.push(meant);
             }
         }
     }
@@ -135,10 +160,14 @@ pub(in crate::readback) fn read(
 ) {
     block.clear();
     let line = if rules.checksum { without_checksum(line, fault) } else { line };
-    let mut at = if rules.frame == Frame::Name { program_name(line, block) } else { 0 };
+    let mut at = match rules.frame {
+        Frame::Name => program_name(line, block),
+        Frame::PercentName => percent_name(line, block),
+        _ => 0,
+    };
     while let Some(&c) = line.get(at) {
         at = match c {
-            b'A'..=b'Z' => word(line, at, c, rules, block, fault),
+            b'A'..=b'Z' => word(line, at, address(line, at, c, rules), rules, block, fault),
             b' ' | b'\t' => at + 1,
             b'(' if rules.parentheses => comment(line, at, rules, fault),
             b';' if rules.semicolon_comment => {
@@ -149,7 +178,7 @@ pub(in crate::readback) fn read(
             b'%' => percent(line, at, rules, block, fault),
             b'a'..=b'z' => {
                 lower_case(c, at, rules, fault);
-                word(line, at, c.to_ascii_uppercase(), rules, block, fault)
+                word(line, at, address(line, at, c.to_ascii_uppercase(), rules), rules, block, fault)
             }
             _ => {
                 fault(stray(c, at));
@@ -191,6 +220,18 @@ fn program_name(line: &[u8], block: &mut Block) -> usize {
     block.name = true;
     block.put(b'O', Number { value: 0.0, point: false });
     line.len()
+}
+
+/// `%` and the digits of a program's number; gives where the rest begins.
+fn percent_name(line: &[u8], block: &mut Block) -> usize {
+    let Some(rest) = line.strip_prefix(b"%") else { return 0 };
+    let digits = rest.iter().take_while(|c| c.is_ascii_digit()).count();
+    if !(1..=8).contains(&digits) {
+        return 0;
+    }
+    block.name = true;
+    block.put(b'O', Number { value: 0.0, point: false });
+    1 + digits
 }
 
 /// Characters of a line that are neither blanks nor in a comment.
@@ -241,20 +282,32 @@ fn percent(line: &[u8], at: usize, rules: &Rules, block: &mut Block, fault: &mut
     line.len()
 }
 
-/// A letter and its number; gives where to go on.
+/// The address at `at` and its length: the longest that the machine has there, or the letter.
+fn address(line: &[u8], at: usize, letter: u8, rules: &Rules) -> (u8, usize) {
+    let rest = line.get(at..).unwrap_or_default();
+    let stands = |name: &[u8]| {
+        rest.get(..name.len()).is_some_and(|start| start.eq_ignore_ascii_case(name))
+            && !rest.get(name.len()).is_some_and(u8::is_ascii_alphabetic)
+    };
+    let longer = rules.longer_addresses().filter(|(name, _)| stands(name)).max_by_key(|(name, _)| name.len());
+    longer.map_or((letter, 1), |(name, letter)| (letter, name.len()))
+}
+
+/// An address and its number; gives where to go on.
 fn word(
     line: &[u8],
     at: usize,
-    letter: u8,
+    (letter, length): (u8, usize),
     rules: &Rules,
     block: &mut Block,
     fault: &mut dyn FnMut(String),
 ) -> usize {
-    let (value, end) = match number(line, at + 1) {
+    let from = at + length;
+    let (value, end) = match number(line, from) {
         Ok(read) => read,
         Err((error, end)) => {
-            fault(bad_number(letter, error, line, at));
-            return after_number(line, end.max(at + 1));
+            fault(bad_number(&rules.address(letter), error, line.get(from), at));
+            return after_number(line, end.max(from));
         }
     };
     store(letter, value, rules, block, fault);
@@ -273,10 +326,9 @@ fn after_number(line: &[u8], from: usize) -> usize {
     from + rest.iter().position(|c| !part(c)).unwrap_or(rest.len())
 }
 
-fn bad_number(letter: u8, error: NumberError, line: &[u8], at: usize) -> String {
-    let letter = char::from(letter);
+fn bad_number(letter: &str, error: NumberError, next: Option<&u8>, at: usize) -> String {
     match error {
-        NumberError::NoDigits if matches!(line.get(at + 1), Some(b'[' | b'#')) => {
+        NumberError::NoDigits if matches!(next, Some(b'[' | b'#')) => {
             format!("{letter} is followed by an expression, which this reader does not follow")
         }
         NumberError::NoDigits => format!("{letter} in column {} is not followed by a number", at + 1),
@@ -297,15 +349,12 @@ pub(super) fn store(
     if matches!(letter, b'G' | b'M') {
         return store_code(letter, value, block, fault);
     }
-    if rules.whole_numbers.contains(&letter) && value.point {
-        fault(format!(
-            "{}{} carries a decimal point; the control wants an integer",
-            char::from(letter),
-            value.value
-        ));
+    if rules.whole_numbers & bit(letter) != 0 && value.point {
+        let (name, value) = (rules.address(letter), value.value);
+        fault(format!("{name}{value} carries a decimal point; the control wants an integer"));
     }
     if !block.put(letter, value) {
-        fault(format!("multiple {} words in one block", char::from(letter)));
+        fault(format!("multiple {} words in one block", rules.address(letter)));
     }
 }
 

@@ -27,6 +27,7 @@ pub(in crate::readback) struct Sticky {
     /// R and Z as they were said, and whether under G91.
     r: Option<(f64, bool)>,
     z: Option<(f64, bool)>,
+    after: Option<f64>,
     q: Option<f64>,
     p: Option<f64>,
 }
@@ -37,6 +38,7 @@ impl Sticky {
     pub(super) fn begin(&mut self, another: bool, initial: Option<f64>) {
         if another {
             (self.r, self.z, self.q, self.p) = (None, None, None, None);
+            self.after = None;
         }
         self.initial = initial.unwrap_or(self.initial);
     }
@@ -82,12 +84,13 @@ impl Machine<'_> {
         out: &mut Out<'_, S>,
     ) {
         let Some(cycles) = self.rules.cycles else { return };
-        *used |= self.axis_words() | bit(b'R') | bit(b'Q') | bit(cycles.repeats);
-        *used |= if cycles.with_dwell.contains(&kind) { bit(b'P') } else { 0 };
-        if !self.cycle_allowed(block, plan, cycles, out) {
+        *used |= self.axis_words() | bit(cycles.level) | bit(cycles.bottom) | bit(cycles.peck);
+        *used |= cycles.repeats.map_or(0, bit) | cycles.after.map_or(0, bit);
+        *used |= if cycles.with_dwell.contains(&kind) { bit(cycles.dwell_word) } else { 0 };
+        if !self.cycle_allowed(block, plan, &cycles, out) {
             return;
         }
-        let (Some(hole), Some(repeats)) = (self.hole(block, kind, cycles, out), repeats(block, cycles, out))
+        let (Some(hole), Some(repeats)) = (self.hole(block, kind, &cycles, out), repeats(block, &cycles, out))
         else {
             return;
         };
@@ -128,7 +131,7 @@ impl Machine<'_> {
             out.fault("a drilling cycle without X, Y or Z");
             return false;
         }
-        if !moves && plan.motion.is_some() && !block.has(b'R') {
+        if !moves && plan.motion.is_some() && !block.has(cycles.level) {
             return false;
         }
         self.feed_is_there(block, out)
@@ -143,26 +146,34 @@ impl Machine<'_> {
         out: &mut Out<'_, S>,
     ) -> Option<Hole> {
         let incremental = self.state.incremental == Some(true);
-        let (r, z) = (self.length(block, b'R'), self.length(block, b'Z'));
-        let q = self.length(block, b'Q');
+        let (r, z) = (self.length(block, cycles.level), self.length(block, cycles.bottom));
+        let after = cycles.after.and_then(|letter| self.length(block, letter));
+        let q = self.length(block, cycles.peck);
         let speed = self.state.speed;
-        let p = block.get(b'P').and_then(|p| cycles.dwell.seconds(p, block.point(b'P'), speed));
+        let letter = cycles.dwell_word;
+        let p = block.get(letter).and_then(|p| cycles.dwell.seconds(p, block.point(letter), speed));
         let now = &mut self.state.cycle;
         now.r = r.map(|r| (r, incremental)).or(now.r);
         now.z = z.map(|z| (z, incremental)).or(now.z);
+        now.after = after.or(now.after);
         now.q = q.or(now.q);
         now.p = p.or(now.p);
-        let (level, bottom) = self.levels(out)?;
+        let (level, bottom) = self.levels(cycles, out)?;
         if !self.state.known[2] {
             out.fault("a drilling cycle from a height that is not known");
             return None;
         }
         if level < bottom {
             let u = self.unit();
-            out.fault(format!("R{} is below the bottom Z{} of the hole", level / u, bottom / u));
+            let [above, below] = [cycles.level, cycles.bottom].map(|l| self.rules.address(l));
+            out.fault(format!(
+                "{above}{} is below the bottom {below}{} of the hole",
+                level / u,
+                bottom / u
+            ));
             return None;
         }
-        let peck = self.peck(kind, level - bottom, out)?;
+        let peck = self.peck(kind, level - bottom, cycles, out)?;
         let dwell = self.state.cycle.p.filter(|_| cycles.with_dwell.contains(&kind)).unwrap_or(0.0);
         let back = self.height_after(level, cycles, out)?;
         let clearance = cycles.clearance;
@@ -170,15 +181,15 @@ impl Machine<'_> {
     }
 
     /// R and the bottom. Words that stay count as the distance mode now in force takes them.
-    fn levels<S: Follow>(&mut self, out: &mut Out<'_, S>) -> Option<(f64, f64)> {
+    fn levels<S: Follow>(&mut self, cycles: &Cycles, out: &mut Out<'_, S>) -> Option<(f64, f64)> {
         let incremental = self.state.incremental == Some(true);
         let now = &self.state.cycle;
         let Some((r, r_mode)) = now.r else {
-            out.fault("a drilling cycle without R");
+            out.fault(format!("a drilling cycle without {}", self.rules.address(cycles.level)));
             return None;
         };
         let Some((z, z_mode)) = now.z else {
-            out.fault("a drilling cycle without Z");
+            out.fault(format!("a drilling cycle without {}", self.rules.address(cycles.bottom)));
             return None;
         };
         let level = if incremental { now.initial + r } else { r };
@@ -195,25 +206,42 @@ impl Machine<'_> {
 
     /// The peck of G73 and G83, which must be there and lead down; `None` when it isn't.
     #[allow(clippy::option_option)]
-    fn peck<S: Follow>(&self, kind: CycleKind, depth: f64, out: &mut Out<'_, S>) -> Option<Option<f64>> {
+    fn peck<S: Follow>(&self, kind: CycleKind, depth: f64, cycles: &Cycles, out: &mut Out<'_, S>) -> Option<Option<f64>> {
         if !matches!(kind, CycleKind::Deep | CycleKind::ChipBreak) {
             return Some(None);
         }
         let Some(q) = self.state.cycle.q else {
-            out.fault("a peck drilling cycle without Q");
+            out.fault(format!("a peck drilling cycle without {}", self.rules.address(cycles.peck)));
             return None;
         };
         if q <= 0.0 || depth / q > MOST_PECKS {
-            out.fault(format!("a peck of Q{} {}", q / self.unit(), self.unit_name()));
+            let name = self.rules.address(cycles.peck);
+            out.fault(format!("a peck of {name}{} {}", q / self.unit(), self.unit_name()));
             return None;
         }
         Some(Some(q))
     }
 
+    /// The height that a word of the cycle says.
+    fn stated_height<S: Follow>(&self, r: f64, word: (u8, f64), out: &mut Out<'_, S>) -> Option<f64> {
+        let (name, height, u) = (self.rules.address(word.0), word.1, self.unit());
+        if self.state.incremental == Some(true) {
+            out.fault(format!("{name} under G91, which this reader does not follow"));
+            return None;
+        }
+        if height < r {
+            out.fault(format!("{name}{} is below the height {} where feed begins", height / u, r / u));
+        }
+        Some(height.max(r))
+    }
+
     /// Where the cutter goes after a hole.
     fn height_after<S: Follow>(&mut self, r: f64, cycles: &Cycles, out: &mut Out<'_, S>) -> Option<f64> {
         let initial = self.state.cycle.initial;
-        match self.state.cycle.to_r {
+        if let (Some(letter), Some(height)) = (cycles.after, self.state.cycle.after) {
+            return self.stated_height(r, (letter, height), out);
+        }
+        match cycles.returns_to_level.or(self.state.cycle.to_r) {
             Some(true) => Some(r),
             Some(false) if cycles.return_height => {
                 let height = self.state.cycle.height;
@@ -239,7 +267,8 @@ impl Machine<'_> {
                 }
                 if initial < r && !cycles.higher_return {
                     let u = self.unit();
-                    out.fault(format!("the height Z{} before the cycle is below R{}", initial / u, r / u));
+                    let name = self.rules.address(cycles.level);
+                    out.fault(format!("the height Z{} before the cycle is below {name}{}", initial / u, r / u));
                 }
                 Some(initial.max(r))
             }
@@ -340,11 +369,12 @@ impl Machine<'_> {
 /// How often the block is to be worked off; 0 only stores its words.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
 fn repeats<S: Follow>(block: &Block, cycles: &Cycles, out: &mut Out<'_, S>) -> Option<u32> {
-    match block.get(cycles.repeats) {
+    let Some(letter) = cycles.repeats else { return Some(1) };
+    match block.get(letter) {
         None => Some(1),
         Some(n) if n.fract() == 0.0 && (0.0..=MOST_REPEATS).contains(&n) => Some(n as u32),
         Some(n) => {
-            out.fault(format!("{}{n} is not a number of repeats", char::from(cycles.repeats)));
+            out.fault(format!("{}{n} is not a number of repeats", char::from(letter)));
             None
         }
     }

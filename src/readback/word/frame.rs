@@ -37,11 +37,14 @@ impl Machine<'_> {
         match self.rules.frame {
             Frame::PercentAndNumber if first => self.program_number(block, out),
             Frame::OptionalNumber if first && number_only => self.number_range(block, 99_999.0, out),
-            Frame::Name if first => {
+            Frame::Name | Frame::PercentName if first => {
                 if !block.name {
-                    out.fault(
-                        "the program does not start with its name, O and up to four letters and digits",
-                    );
+                    out.fault(match self.rules.frame {
+                        Frame::PercentName => "the program does not start with '%' and its number",
+                        _ => "the program does not start with its name, O and up to four letters and digits",
+                    });
+                } else if !number_only {
+                    out.fault("words behind the program's name");
                 }
                 return block.name;
             }
@@ -82,7 +85,7 @@ impl Machine<'_> {
             _ => {}
         }
         let needs_end = match self.rules.frame {
-            Frame::PercentAndNumber | Frame::OptionalNumber | Frame::Name | Frame::End => true,
+            Frame::PercentAndNumber | Frame::OptionalNumber | Frame::Name | Frame::PercentName | Frame::End => true,
             Frame::PercentPairOrEnd => percents == 0,
             // The control would wait for more, which is fine unless the spindle turns.
             Frame::Free => self.state.direction != 0.0,

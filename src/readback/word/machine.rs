@@ -2,7 +2,7 @@
 
 use super::block::{Block, bit};
 use super::codes::{G, Group, M, Mode};
-use super::rules::{FeedReset, Rules, Unpointed};
+use super::rules::{FeedReset, Language, Rules, Unpointed};
 use super::state::{Plan, State};
 use crate::readback::out::Out;
 use crate::readback::{EventKind, FeedMode, Follow, MachineSetup, Washing};
@@ -20,7 +20,7 @@ const LENGTH_BITS: u32 = bit(b'X') | bit(b'Y') | bit(b'Z') | bit(b'I') | bit(b'J
 /// The executing half of the interpreter.
 #[derive(Debug)]
 pub(super) struct Machine<'a> {
-    pub rules: &'static Rules,
+    pub rules: Rules,
     pub setup: &'a MachineSetup,
     pub state: State,
     pub nurbs: super::nurbs::Open,
@@ -29,11 +29,11 @@ pub(super) struct Machine<'a> {
 }
 
 impl<'a> Machine<'a> {
-    pub(super) fn new(rules: &'static Rules, setup: &'a MachineSetup) -> Self {
+    pub(super) fn new(rules: Rules, setup: &'a MachineSetup) -> Self {
         Machine {
             rules,
             setup,
-            state: State::new(rules),
+            state: State::new(&rules),
             nurbs: super::nurbs::Open::default(),
             frame: super::frame::Seen::default(),
             modal_cycle: None,
@@ -210,7 +210,7 @@ impl<'a> Machine<'a> {
         self.units(plan.inch);
         self.feed_mode(plan.feed);
         let dwell = plan.once == Some(G::Dwell);
-        let of_dwell = |letter: u8| dwell && self.rules.dwell.iter().any(|(l, _)| *l == letter);
+        let of_dwell = |letter: u8| dwell && self.rules.dwell.iter().flatten().any(|(l, _)| *l == letter);
         if let Some(speed) = block.get(b'S').filter(|_| !of_dwell(b'S')) {
             self.state.speed = speed;
         }
@@ -225,7 +225,7 @@ impl<'a> Machine<'a> {
         self.tool_length(block, plan, used, out);
         self.offset(block, plan, used, out);
         self.path(block, plan.path, used, out);
-        if self.rules.length_by_d {
+        if self.rules.language == Language::Sinumerik {
             self.contour_path(block, plan.path, plan.compressor);
         }
         self.state.incremental = plan.incremental.or(self.state.incremental);
@@ -362,13 +362,14 @@ impl<'a> Machine<'a> {
         if plan.once != Some(G::Dwell) {
             return;
         }
-        let word = self.rules.dwell.iter().find_map(|&(l, unit)| block.get(l).map(|v| (l, unit, v)));
-        for &(letter, _) in self.rules.dwell {
+        let word = self.rules.dwell.iter().flatten().find_map(|&(l, unit)| block.get(l).map(|v| (l, unit, v)));
+        for &(letter, _) in self.rules.dwell.iter().flatten() {
             *used |= bit(letter);
         }
         let Some((letter, unit, value)) = word else { return out.fault("G4 without the dwell's time") };
         if value < 0.0 {
-            return out.fault(format!("G4 with the negative time {}{value}", char::from(letter)));
+            let name = self.rules.address(letter);
+            return out.fault(format!("G4 with the negative time {name}{value}"));
         }
         match unit.seconds(value, block.point(letter), self.state.direction.abs() * self.state.speed) {
             Some(seconds) => out.event(EventKind::Dwell(seconds)),
@@ -386,14 +387,15 @@ impl<'a> Machine<'a> {
         if !on {
             return;
         }
-        *used |= bit(b'H');
-        let tool = f64::from(self.state.tool);
-        match block.get(b'H') {
-            None if self.rules.length_needs_h => out.fault("G43 without an H word"),
-            Some(h) if h.fract() != 0.0 || h < 0.0 => out.fault(format!("G43 with H{h}")),
+        let letter = self.rules.length_word;
+        *used |= bit(letter);
+        let (tool, name) = (f64::from(self.state.tool), self.rules.address(letter));
+        match block.get(letter) {
+            None if self.rules.length_needs_h => out.fault(format!("G43 without the word {name}")),
+            Some(h) if h.fract() != 0.0 || h < 0.0 => out.fault(format!("G43 with {name}{h}")),
             Some(h) if (h - tool).abs() > 0.5 => {
                 out.assumed(format!(
-                    "G43 H{h} takes in the length of another tool than T{tool} in the spindle"
+                    "G43 {name}{h} takes in the length of another tool than T{tool} in the spindle"
                 ));
             }
             _ => {}
@@ -402,10 +404,12 @@ impl<'a> Machine<'a> {
 
     /// D: the edge whose length and radius count; D0 none.
     fn length_by_d<S: Follow>(&mut self, block: &Block, used: &mut u32, out: &mut Out<'_, S>) {
-        let Some(d) = block.get(b'D') else { return };
-        *used |= bit(b'D');
-        if d.fract() != 0.0 || !(0.0..=12.0).contains(&d) {
-            out.fault(format!("D{d} is no cutting edge"));
+        let letter = self.rules.length_word;
+        let Some(d) = block.get(letter) else { return };
+        *used |= bit(letter);
+        let most = if self.rules.language == Language::Sinumerik { 12.0 } else { 9999.0 };
+        if d.fract() != 0.0 || !(0.0..=most).contains(&d) {
+            out.fault(format!("{}{d} is no cutting edge", self.rules.address(letter)));
         }
         let on = d > 0.0;
         if self.state.length != on {
@@ -432,7 +436,7 @@ impl<'a> Machine<'a> {
     /// G64 P: blending cuts a corner by up to P, and the naive-cam detector drops points up to Q (P when it is
     /// not given) off the line; the two add up.
     fn path<S: Follow>(&mut self, block: &Block, path: Option<G>, used: &mut u32, out: &mut Out<'_, S>) {
-        if self.rules.length_by_d {
+        if self.rules.language == Language::Sinumerik {
             return;
         }
         let Some(path) = path else { return };
@@ -464,9 +468,9 @@ impl<'a> Machine<'a> {
         if left == 0 {
             return;
         }
-        for letter in (b'A'..=b'Z').filter(|&l| left & bit(l) != 0) {
+        for letter in (b'A'..).take(32).filter(|&l| left & bit(l) != 0) {
             let value = block.get(letter).unwrap_or_default();
-            let name = char::from(letter);
+            let name = self.rules.address(letter);
             if matches!(letter, b'A'..=b'C' | b'U'..=b'W') && self.setup.rotary_letter() != Some(letter) {
                 out.fault(format!("{name}{value}: the machine has no axis {name}"));
             } else {

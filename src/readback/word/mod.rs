@@ -1,6 +1,7 @@
 //! The word-address family: blocks of letters with numbers (ISO 6983 and what controls made of it).
 //!
-//! A control is a row of [`rules::Rules`] with its two code tables; the interpreter is one.
+//! A control is a row of [`rules::Rules`] with its two code tables; the interpreter is one. A machine that is none of them
+//! says what it does otherwise in [`stated`].
 
 use super::out::Out;
 use super::{Follow, MachineSetup};
@@ -19,18 +20,24 @@ mod renamed;
 mod rules;
 mod sinumerik;
 mod state;
+mod stated;
 
 use renamed::Renamed;
 
 pub(super) use controls::CONTROLS;
+pub(super) use stated::Stated;
+pub use stated::{Statement, statements};
 
 #[cfg(test)]
 mod tests;
 
-/// The control of this name, and the codes that stand behind it.
-pub(super) fn find(control: &str) -> Option<(&'static rules::Rules, Vec<Renamed>)> {
-    let (name, renamed) = renamed::split(control)?;
-    CONTROLS.into_iter().find(|c| c.name == name).map(|rules| (rules, renamed))
+
+/// The control that a text names, with what the machine says of itself; `None` where the name is none of this family.
+///
+/// # Errors
+/// The first statement that means nothing.
+pub(super) fn find(control: &str) -> Option<Result<Stated, String>> {
+    stated::read(control)
 }
 
 /// Reads lines and executes them.
@@ -43,13 +50,14 @@ pub(super) struct Reader<'a> {
 
 impl<'a> Reader<'a> {
     /// A control as it stands after power-on.
-    pub(super) fn new(rules: &'static rules::Rules, renamed: Vec<Renamed>, setup: &'a MachineSetup) -> Self {
+    pub(super) fn new(stated: Stated, setup: &'a MachineSetup) -> Self {
+        let Stated { rules, renamed } = stated;
         Reader { machine: machine::Machine::new(rules, setup), block: block::Block::default(), renamed }
     }
 
     /// Executes a line without its end.
     pub(super) fn line<S: Follow>(&mut self, line: &[u8], out: &mut Out<'_, S>) {
-        let rules = self.machine.rules;
+        let rules = &self.machine.rules;
         let read = match rules.language {
             rules::Language::Iso => block::read,
             rules::Language::Sinumerik => sinumerik::read,
@@ -58,12 +66,8 @@ impl<'a> Reader<'a> {
         if !self.renamed.is_empty() {
             self.block.rename(&self.renamed, &mut |message| out.fault(message));
         }
-        if rules.line_limit.is_some_and(|limit| self.block.length > limit) {
-            out.fault(format!(
-                "the line has {} characters, the control takes {}",
-                self.block.length,
-                rules.line_limit.unwrap_or_default()
-            ));
+        if let Some(limit) = rules.line_limit.filter(|limit| self.block.length > *limit) {
+            out.fault(format!("the line has {} characters, the control takes {limit}", self.block.length));
         }
         self.machine.execute(&self.block, out);
     }

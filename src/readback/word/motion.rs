@@ -1,6 +1,6 @@
 //! Motions: rapids, lines, spirals of a rotary table, and what they need.
 
-use super::block::{Block, bit};
+use super::block::{Block, bit, letters};
 use super::codes::{G, Mode, Plane};
 use super::machine::Machine;
 use super::rules::RotaryFeed;
@@ -61,10 +61,11 @@ impl Machine<'_> {
 
     /// Full circles, and cycles that are defined or repeated on the spot.
     fn moves_without_axes(&self, block: &Block, plan: &Plan) -> bool {
-        let arc_words = bit(b'I') | bit(b'J') | bit(b'K') | bit(b'R');
+        let arc_words = letters(&self.rules.arc_offsets) | bit(self.rules.arc_radius);
+        let level = self.rules.cycles.is_some_and(|c| block.has(c.level));
         match self.state.motion {
             Mode::Arc { .. } => plan.motion.is_some() || (block.seen & arc_words != 0 && plan.once.is_none()),
-            Mode::Cycle(_) => plan.motion.is_some() || (block.has(b'R') && plan.once.is_none()),
+            Mode::Cycle(_) => plan.motion.is_some() || (level && plan.once.is_none()),
             _ => false,
         }
     }

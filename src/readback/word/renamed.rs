@@ -6,20 +6,39 @@ pub(in crate::readback) struct Renamed {
     /// `G` or `M`.
     pub letter: u8,
     pub written: u16,
-    pub meant: u16,
+    pub meant: Meant,
 }
 
-/// The name of a control and the codes behind it: `fanuc G70=G20 G71=G21`; `None` when what stands there is none.
-pub(in crate::readback) fn split(control: &str) -> Option<(&str, Vec<Renamed>)> {
-    let mut words = control.split_whitespace();
-    let name = words.next()?;
-    Some((name, words.map(renamed).collect::<Option<_>>()?))
+/// What a machine means by a code.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::readback) enum Meant {
+    /// What the reader's control means by this one.
+    Code(u16),
+    /// Nothing that changes the path or what the spindle does.
+    Nothing,
+    /// It has no such code.
+    Unknown,
 }
 
-fn renamed(word: &str) -> Option<Renamed> {
-    let (written, meant) = word.split_once('=')?;
-    let ((letter, written), (other, meant)) = (code(written)?, code(meant)?);
-    (letter == other && written != meant).then_some(Renamed { letter, written, meant })
+/// `G71` and `G21`; `nothing` and `unknown` in place of the second.
+///
+/// # Errors
+/// What stands there instead.
+pub(in crate::readback) fn read(written: &str, meant: &str) -> Result<Renamed, String> {
+    let no_code = |text: &str| format!("`{text}` is no code: G or M and a number, as in `G54.1`");
+    let (letter, number) = code(written).ok_or_else(|| no_code(written))?;
+    let meant = match meant {
+        "nothing" => Meant::Nothing,
+        "unknown" => Meant::Unknown,
+        _ => {
+            let (other, meant) = code(meant).ok_or_else(|| no_code(meant))?;
+            if other != letter || meant == number {
+                return Err("it takes another code of the same letter, `nothing` or `unknown`".to_owned());
+            }
+            Meant::Code(meant)
+        }
+    };
+    Ok(Renamed { letter, written: number, meant })
 }
 
 /// Letter and number in tenths.
@@ -34,12 +53,18 @@ fn code(text: &str) -> Option<(u8, u16)> {
 }
 
 impl Renamed {
-    /// The code as it is written, and as the reader calls it.
-    pub fn names(&self) -> [String; 2] {
-        let letter = char::from(self.letter);
-        [self.written, self.meant].map(|code| match code % 10 {
-            0 => format!("{letter}{}", code / 10),
-            tenth => format!("{letter}{}.{tenth}", code / 10),
-        })
+    /// Whether both are about one code as it is written.
+    pub fn is_about(&self, other: &Renamed) -> bool {
+        (self.letter, self.written) == (other.letter, other.written)
     }
+
+    /// The code as it is written.
+    pub fn name(&self) -> String {
+        name(self.letter, self.written)
+    }
+}
+
+/// A code in tenths as it is written.
+pub(in crate::readback) fn name(letter: u8, tenths: u16) -> String {
+    format!("{}{}", char::from(letter), super::machine::tenths(tenths))
 }

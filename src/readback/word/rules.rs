@@ -13,6 +13,8 @@ pub(in crate::readback) enum Frame {
     OptionalNumber,
     /// If it starts with `%` it must end with one; else M2 or M30 must stand in it.
     PercentPairOrEnd,
+    /// `%` and a number on the first line, M2 or M30 last.
+    PercentName,
     /// Nothing first, M2 or M30 last.
     End,
     /// None.
@@ -39,9 +41,14 @@ pub(in crate::readback) enum Dwell {
     Milliseconds,
     /// Seconds with a decimal point, milliseconds without.
     ByPoint,
+    /// Hundredths of a second.
+    Hundredths,
     /// Revolutions of the spindle.
     Revolutions,
 }
+
+/// Dwell words in order of precedence, with their units.
+pub(in crate::readback) type Dwells = [Option<(u8, Dwell)>; 2];
 
 impl Dwell {
     /// Seconds of `value`; `None` where the spindle must turn and doesn't.
@@ -49,6 +56,7 @@ impl Dwell {
         match self {
             Dwell::Seconds => Some(value),
             Dwell::Milliseconds => Some(value / 1000.0),
+            Dwell::Hundredths => Some(value / 100.0),
             Dwell::ByPoint => Some(if pointed { value } else { value / 1000.0 }),
             Dwell::Revolutions => (speed > 0.0).then(|| 60.0 * value / speed),
         }
@@ -85,9 +93,19 @@ pub(in crate::readback) enum ArcEnd {
 }
 
 /// How drilling cycles are programmed and worked off.
-#[derive(Debug)]
+#[derive(Debug, Clone, Copy)]
 pub(in crate::readback) struct Cycles {
-    /// Unit of the dwell word P.
+    /// Word of the height where feed begins.
+    pub level: u8,
+    /// Word of the bottom.
+    pub bottom: u8,
+    /// Word of the height to which the tool goes after a hole, where there is one.
+    pub after: Option<u8>,
+    /// Word of the depth of a peck.
+    pub peck: u8,
+    /// Word of the dwell, and its unit.
+    pub dwell_word: u8,
+    /// Unit of the dwell word.
     pub dwell: Dwell,
     /// Cycles that take a dwell.
     pub with_dwell: &'static [CycleKind],
@@ -96,8 +114,10 @@ pub(in crate::readback) struct Cycles {
     pub clearance: f64,
     /// The height of return is said by G71 Z and M53 (Okuma), not by G98.
     pub return_height: bool,
-    /// Letter of the repeat count.
-    pub repeats: u8,
+    /// Word of the repeat count.
+    pub repeats: Option<u8>,
+    /// The tool always goes back to R, or to the initial height; `None`: as G98 and G99 say.
+    pub returns_to_level: Option<bool>,
     /// G99 is in force before G98 or G99 is said.
     pub starts_to_r: bool,
     /// A cycle block must move an axis.
@@ -107,6 +127,13 @@ pub(in crate::readback) struct Cycles {
     /// G89 goes all the way back at feed.
     pub bore_dwell_feeds_back: bool,
 }
+
+/// The letters an address may be, and behind them places for longer addresses.
+pub(in crate::readback) const LETTERS: u8 = b'Z' + 1;
+/// Longer addresses that a machine may have.
+pub(in crate::readback) const ADDRESSES: usize = 6;
+/// Characters of one.
+pub(in crate::readback) const ADDRESS: usize = 4;
 
 /// Ways to cut a line into words.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -118,7 +145,7 @@ pub(in crate::readback) enum Language {
 }
 
 /// How a control words its faults and what it refuses.
-#[derive(Debug)]
+#[derive(Debug, Clone, Copy)]
 pub(in crate::readback) struct Rules {
     /// Name, as in `--post` data's `control`.
     pub name: &'static str,
@@ -153,7 +180,9 @@ pub(in crate::readback) struct Rules {
     /// The limit counts comments and blanks too.
     pub limit_counts_all: bool,
     /// Letters whose numbers must not carry a point.
-    pub whole_numbers: &'static [u8],
+    pub whole_numbers: u32,
+    /// Addresses of more than one character, zeros behind; they count as letters from [`LETTERS`] on.
+    pub addresses: [[u8; ADDRESS]; ADDRESSES],
     /// What numbers without a point mean.
     pub unpointed: Unpointed,
     /// Largest length in a word, in the unit in force, if there is a limit: mm, inch.
@@ -170,17 +199,19 @@ pub(in crate::readback) struct Rules {
     pub g: fn(u16) -> Option<G>,
     /// M code in tenths to its meaning.
     pub m: fn(u16) -> Option<M>,
-    /// Dwell words in order of precedence, with their units.
-    pub dwell: &'static [(u8, Dwell)],
+    /// Dwell words.
+    pub dwell: Dwells,
     /// Drilling cycles, if the control has them.
-    pub cycles: Option<&'static Cycles>,
+    pub cycles: Option<Cycles>,
     /// Tools are changed by `T M6`, so that a cut without one is wrong.
     pub tool_change: bool,
     /// Tool length is taken in by G43, so that a cut without it is wrong.
     pub length_offset: bool,
     /// Lengths are taken in by D words, D0 leaves them out.
     pub length_by_d: bool,
-    /// G43 needs an H word.
+    /// Word of the length offset that G43 takes in.
+    pub length_word: u8,
+    /// G43 needs it.
     pub length_needs_h: bool,
     /// Work offsets are selected by the program, so that moving without one leaves it to what was in force.
     pub work_offset: bool,
@@ -208,6 +239,12 @@ pub(in crate::readback) struct Rules {
     pub radius_wins: bool,
     /// An arc by R of nearly half a turn can't be computed reliably.
     pub shaky_half_circle: bool,
+    /// Words of an arc's centre along X, Y and Z.
+    pub arc_offsets: [u8; 3],
+    /// Word of an arc's radius.
+    pub arc_radius: u8,
+    /// They count from the program's zero, without G90.1.
+    pub arc_absolute: bool,
     /// `P` in an arc is a number of turns.
     pub arc_turns: bool,
     /// An arc needs an end word in its plane.
@@ -218,6 +255,8 @@ pub(in crate::readback) struct Rules {
     pub arc_mode_stated: bool,
     /// Largest difference of an arc's radii, mm, at this (larger) radius, and whether the program is in inches.
     pub largest_difference: fn(f64, bool) -> f64,
+    /// The same for a machine that says it itself, mm.
+    pub stated_difference: Option<f64>,
     /// What the control says when an arc's radii differ by more.
     pub arc_complaint: &'static str,
     /// Sweep below which an arc is a full circle, radians.
@@ -228,4 +267,26 @@ pub(in crate::readback) struct Rules {
     pub no_feed: &'static str,
     /// What it says to a word that no code of the block uses.
     pub unused: &'static str,
+}
+
+impl Rules {
+    /// The address that counts as this letter.
+    pub(super) fn address(&self, letter: u8) -> String {
+        let longer = letter.checked_sub(LETTERS).and_then(|i| self.addresses.get(usize::from(i)));
+        match longer {
+            Some(name) => name.iter().take_while(|c| **c != 0).copied().map(char::from).collect(),
+            None => char::from(letter).to_string(),
+        }
+    }
+    /// Addresses of more than one character, with what they count as.
+    pub(super) fn longer_addresses(&self) -> impl Iterator<Item = (&[u8], u8)> {
+        let said = |name: &'_ [u8; ADDRESS]| name.iter().position(|c| *c == 0).unwrap_or(ADDRESS);
+        (LETTERS..).zip(&self.addresses).filter_map(move |(letter, name)| {
+            name.get(..said(name)).filter(|name| !name.is_empty()).map(|name| (name, letter))
+        })
+    }
+    /// Whether the radii of an arc may differ so, mm.
+    pub(super) fn arc_fits(&self, difference: f64, radius: f64, inch: bool) -> bool {
+        difference <= self.stated_difference.unwrap_or_else(|| (self.largest_difference)(radius, inch))
+    }
 }

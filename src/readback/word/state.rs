@@ -82,7 +82,7 @@ impl State {
             plane_stated: false,
             inch: None,
             incremental: None,
-            arc_incremental: true,
+            arc_incremental: !rules.arc_absolute,
             arc_mode_stated: !rules.arc_mode_stated,
             feed_mode: if rules.feed_modes { None } else { Some(FeedMode::PerMinute) },
             feed: None,

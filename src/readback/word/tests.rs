@@ -289,7 +289,7 @@ fn fanuc_refuses_what_it_refuses() {
         ("G1 X1. K2.", 9, "K2: no code in the block uses it"),
         ("G2 X0. Y0. I-5. K1.", 9, "K1: no code in the block uses it"),
         ("G41 D1 X1.", 9, "G41 is not followed"),
-        ("G43", 9, "G43 without an H word"),
+        ("G43", 9, "G43 without the word H"),
         ("G95 G1 X1.", 9, "PS0011"),
         ("G90.1 X1.", 9, "unknown code G90.1"),
     ] {
@@ -456,3 +456,4 @@ mod arcs;
 mod controls;
 mod cycles;
 mod sinumerik;
+mod stated;

@@ -1,5 +1,6 @@
 //! Centroid M-series mills, from a published post.
 
+use super::super::block::letters;
 use super::super::codes::{G, Group};
 use super::super::rules::{Cycles, Dwell, Frame, Rules, Unpointed};
 use super::fanuc;
@@ -10,13 +11,13 @@ pub(super) const RULES: Rules = Rules {
     frame: Frame::OptionalNumber,
     semicolon_comment: true,
     comment_character: |c| (b' '..0x7f).contains(&c),
-    whole_numbers: b"NOTDHSLM",
+    whole_numbers: letters(b"NOTDHSLM"),
     unpointed: Unpointed::Setting,
     offset_word: Some(b'E'),
     most_offsets: 18.0,
     g,
-    dwell: &[(b'P', Dwell::Seconds)],
-    cycles: Some(&CYCLES),
+    dwell: [Some((b'P', Dwell::Seconds)), None],
+    cycles: Some(CYCLES),
     radius_wins: false,
     largest_difference: |_, _| 0.005,
     arc_complaint: "the arc's end is off its circle",
@@ -24,7 +25,7 @@ pub(super) const RULES: Rules = Rules {
     ..fanuc::RULES
 };
 
-const CYCLES: Cycles = Cycles { dwell: Dwell::Seconds, repeats: b'L', ..fanuc::CYCLES };
+const CYCLES: Cycles = Cycles { dwell: Dwell::Seconds, repeats: Some(b'L'), ..fanuc::CYCLES };
 
 fn g(tenths: u16) -> Option<G> {
     Some(match tenths {

@@ -1,5 +1,6 @@
 //! Fanuc 30i milling, G-code system of machining centres.
 
+use super::super::block::letters;
 use super::super::codes::{CycleKind, G, Group, M, Mode};
 use super::super::iso;
 use super::super::rules::{ArcEnd, Cycles, Dwell, FeedReset, Frame, Language, RotaryFeed, Rules, Unpointed};
@@ -22,7 +23,8 @@ pub(in crate::readback::word) const RULES: Rules = Rules {
     checksum: false,
     line_limit: None,
     limit_counts_all: true,
-    whole_numbers: b"NOTDHSLMP",
+    addresses: [[0; 4]; 6],
+    whole_numbers: letters(b"NOTDHSLMP"),
     unpointed: Unpointed::Least,
     largest_length: Some((99_999.999, 9999.9999)),
     largest_n: 99_999_999.0,
@@ -31,11 +33,12 @@ pub(in crate::readback::word) const RULES: Rules = Rules {
     most_m: 1,
     g,
     m,
-    dwell: &[(b'P', Dwell::Milliseconds), (b'X', Dwell::ByPoint)],
-    cycles: Some(&CYCLES),
+    dwell: [Some((b'P', Dwell::Milliseconds)), Some((b'X', Dwell::ByPoint))],
+    cycles: Some(CYCLES),
     tool_change: true,
     length_offset: true,
     length_by_d: false,
+    length_word: b'H',
     length_needs_h: true,
     work_offset: true,
     offset_word: None,
@@ -50,10 +53,14 @@ pub(in crate::readback::word) const RULES: Rules = Rules {
     exact_code: "G61",
     radius_wins: true,
     shaky_half_circle: true,
+    arc_offsets: *b"IJK",
+    arc_radius: b'R',
+    arc_absolute: false,
     arc_turns: false,
     arc_needs_end: false,
     arc_end: ArcEnd::Spiral,
     arc_mode_stated: false,
+    stated_difference: None,
     largest_difference: |_, _| 0.01,
     arc_complaint: "alarm PS0020, over tolerance of radius",
     full_circle_fuzz: 0.0,
@@ -64,6 +71,11 @@ pub(in crate::readback::word) const RULES: Rules = Rules {
 
 /// Pecks and dwells in milliseconds; the distance back is parameter 5114 or 5115.
 pub(in crate::readback::word) const CYCLES: Cycles = Cycles {
+    level: b'R',
+    bottom: b'Z',
+    after: None,
+    peck: b'Q',
+    dwell_word: b'P',
     dwell: Dwell::Milliseconds,
     with_dwell: &[
         CycleKind::Dwell,
@@ -74,7 +86,8 @@ pub(in crate::readback::word) const CYCLES: Cycles = Cycles {
     ],
     clearance: 0.5,
     return_height: false,
-    repeats: b'K',
+    returns_to_level: None,
+    repeats: Some(b'K'),
     needs_motion: false,
     starts_to_r: false,
     higher_return: false,

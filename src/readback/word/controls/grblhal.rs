@@ -7,7 +7,7 @@ use super::{grbl, linuxcnc};
 
 /// Tool tables are an option of the build, so that cuts need neither M6 nor G43.
 pub(super) const RULES: Rules =
-    Rules { name: "grblhal", g, m, cycles: Some(&CYCLES), arc_turns: true, ..grbl::RULES };
+    Rules { name: "grblhal", g, m, cycles: Some(CYCLES), arc_turns: true, ..grbl::RULES };
 
 const CYCLES: Cycles = Cycles {
     with_dwell: &[CycleKind::Dwell, CycleKind::BoreStop, CycleKind::BoreDwell],

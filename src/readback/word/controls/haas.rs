@@ -1,20 +1,21 @@
 //! Haas mill, next generation control, from its published post and code lists.
 
 use super::super::codes::{G, Group, M};
+use super::super::block::letters;
 use super::super::rules::{Cycles, Dwell, Rules};
 use super::fanuc;
 
 /// P of a dwell is in seconds with a decimal point and in milliseconds without; F under G93 ends at 9999.
 pub(super) const RULES: Rules = Rules {
     name: "haas",
-    whole_numbers: b"NOTDHSLM",
+    whole_numbers: letters(b"NOTDHSLM"),
     most_offsets: 99.0,
     largest_t: 200.0,
     largest_inverse: 9999.0,
     g,
     m,
-    dwell: &[(b'P', Dwell::ByPoint)],
-    cycles: Some(&CYCLES),
+    dwell: [Some((b'P', Dwell::ByPoint)), None],
+    cycles: Some(CYCLES),
     radius_wins: false,
     largest_difference: |_, _| 0.005,
     arc_complaint: "the arc's end is off its circle",
@@ -22,7 +23,7 @@ pub(super) const RULES: Rules = Rules {
     ..fanuc::RULES
 };
 
-const CYCLES: Cycles = Cycles { dwell: Dwell::ByPoint, repeats: b'L', ..fanuc::CYCLES };
+const CYCLES: Cycles = Cycles { dwell: Dwell::ByPoint, repeats: Some(b'L'), ..fanuc::CYCLES };
 
 fn g(tenths: u16) -> Option<G> {
     Some(match tenths {

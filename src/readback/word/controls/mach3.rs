@@ -17,7 +17,7 @@ pub(super) const RULES: Rules = Rules {
     unpointed: Unpointed::Whole,
     most_m: 4,
     g,
-    cycles: Some(&SECONDS),
+    cycles: Some(SECONDS),
     arc_turns: false,
     arc_mode_stated: true,
     feed_reset: FeedReset::Change,
@@ -28,7 +28,7 @@ pub(super) const RULES: Rules = Rules {
 
 /// With `G04 Dwell param in Milliseconds` on.
 pub(super) const MILLISECONDS: Rules =
-    Rules { name: "mach3-ms", dwell: &[(b'P', Dwell::Milliseconds)], cycles: Some(&CYCLES), ..RULES };
+    Rules { name: "mach3-ms", dwell: [Some((b'P', Dwell::Milliseconds)), None], cycles: Some(CYCLES), ..RULES };
 
 const SECONDS: Cycles = Cycles { bore_dwell_feeds_back: false, ..linuxcnc::CYCLES };
 const CYCLES: Cycles = Cycles { dwell: Dwell::Milliseconds, ..SECONDS };

@@ -22,7 +22,7 @@ pub(super) const RULES: Rules = Rules {
     largest_n: 2_147_483_647.0,
     g,
     m,
-    dwell: &[(b'S', Dwell::Seconds), (b'P', Dwell::Milliseconds)],
+    dwell: [Some((b'S', Dwell::Seconds)), Some((b'P', Dwell::Milliseconds))],
     work_offset: false,
     starts_at_rapid: false,
     repeat_motion: true,
@@ -44,7 +44,7 @@ pub(super) const SMOOTHIEWARE: Rules = Rules { name: "smoothieware", line_limit:
 /// Smoothieware, `grbl_mode` on: P counts seconds.
 pub(super) const SMOOTHIEWARE_GRBL: Rules = Rules {
     name: "smoothieware-grbl",
-    dwell: &[(b'P', Dwell::Seconds), (b'S', Dwell::Seconds)],
+    dwell: [Some((b'P', Dwell::Seconds)), Some((b'S', Dwell::Seconds))],
     ..SMOOTHIEWARE
 };
 

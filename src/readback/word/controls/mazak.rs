@@ -9,7 +9,7 @@ pub(super) const RULES: Rules = Rules {
     name: "mazak",
     line_limit: Some(248),
     g,
-    dwell: &[(b'P', Dwell::Milliseconds), (b'X', Dwell::ByPoint)],
+    dwell: [Some((b'P', Dwell::Milliseconds)), Some((b'X', Dwell::ByPoint))],
     largest_difference: |_, _| 0.005,
     arc_complaint: "the arc's end is off its circle",
     no_feed: "no feed commanded",

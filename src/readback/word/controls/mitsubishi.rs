@@ -9,14 +9,14 @@ pub(super) const RULES: Rules = Rules {
     name: "mitsubishi",
     unpointed: Unpointed::Setting,
     g,
-    cycles: Some(&CYCLES),
+    cycles: Some(CYCLES),
     largest_difference: |_, _| 0.005,
     arc_complaint: "alarm P70, the arc's end is off its circle",
     no_feed: "alarm P62, no feed commanded",
     ..fanuc::RULES
 };
 
-const CYCLES: Cycles = Cycles { repeats: b'L', ..fanuc::CYCLES };
+const CYCLES: Cycles = Cycles { repeats: Some(b'L'), ..fanuc::CYCLES };
 
 fn g(tenths: u16) -> Option<G> {
     Some(match tenths {

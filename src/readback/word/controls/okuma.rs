@@ -1,5 +1,6 @@
 //! Okuma OSP machining centres, from a published post and programming manuals.
 
+use super::super::block::letters;
 use super::super::codes::{G, Group, M};
 use super::super::rules::{Cycles, Dwell, Frame, Rules, Unpointed};
 use super::fanuc;
@@ -8,15 +9,15 @@ use super::fanuc;
 pub(super) const RULES: Rules = Rules {
     name: "okuma",
     frame: Frame::Name,
-    whole_numbers: b"NTDHSM",
+    whole_numbers: letters(b"NTDHSM"),
     unpointed: Unpointed::Setting,
     largest_n: 99_999.0,
     most_m: 8,
     most_offsets: 100.0,
     g,
     m,
-    dwell: &[(b'F', Dwell::Seconds)],
-    cycles: Some(&CYCLES),
+    dwell: [Some((b'F', Dwell::Seconds)), None],
+    cycles: Some(CYCLES),
     length_needs_h: true,
     radius_wins: false,
     largest_difference: |_, _| 0.02,
@@ -25,7 +26,7 @@ pub(super) const RULES: Rules = Rules {
     ..fanuc::RULES
 };
 
-const CYCLES: Cycles = Cycles { dwell: Dwell::Seconds, return_height: true, repeats: b'L', ..fanuc::CYCLES };
+const CYCLES: Cycles = Cycles { dwell: Dwell::Seconds, return_height: true, repeats: Some(b'L'), ..fanuc::CYCLES };
 
 fn g(tenths: u16) -> Option<G> {
     Some(match tenths {

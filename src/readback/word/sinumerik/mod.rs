@@ -6,6 +6,7 @@
 use super::codes::{G, Group, M, Mode};
 use super::controls::fanuc;
 use super::iso;
+use super::block::letters;
 use super::rules::{Cycles, Dwell, FeedReset, Frame, Language, RotaryFeed, Rules};
 use crate::readback::FeedMode;
 
@@ -60,7 +61,7 @@ pub(in crate::readback) const RULES: Rules = Rules {
     comment_complaint: "the control stops at",
     lower_case: true,
     line_limit: Some(512),
-    whole_numbers: b"NTDM",
+    whole_numbers: letters(b"NTDM"),
     unpointed: super::rules::Unpointed::Whole,
     largest_length: Some((999_999.999, 99_999.999_9)),
     largest_t: 32_000.0,
@@ -68,11 +69,12 @@ pub(in crate::readback) const RULES: Rules = Rules {
     most_m: 5,
     g,
     m,
-    dwell: &[(b'F', Dwell::Seconds), (b'S', Dwell::Revolutions)],
-    cycles: Some(&CYCLES),
+    dwell: [Some((b'F', Dwell::Seconds)), Some((b'S', Dwell::Revolutions))],
+    cycles: Some(CYCLES),
     tool_change: true,
     length_offset: true,
     length_by_d: true,
+    length_word: b'D',
     feed_reset: FeedReset::Change,
     rotary_feed: RotaryFeed::MillimetresAsDegrees,
     blends: true,
