@@ -76,7 +76,11 @@ pub const VARIABLES: &[Variable] = &[
     row(Cycle, "cycle.r", "clearance level"),
     row(Cycle, "cycle.surface", "surface that depth and clearance count from"),
     row(Cycle, "cycle.initial", "height at which the cycle begins"),
-    row(Cycle, "cycle.after", "height to which the tool goes after each hole: that of `cycle.r` or `cycle.initial`"),
+    row(
+        Cycle,
+        "cycle.after",
+        "height to which the tool goes after each hole: that of `cycle.r` or `cycle.initial`",
+    ),
     row(Cycle, "cycle.depth", "surface to bottom, positive"),
     row(Cycle, "cycle.clearance", "surface to clearance level"),
     row(Cycle, "cycle.above", "surface to the height at which the cycle begins"),

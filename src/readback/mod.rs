@@ -117,10 +117,9 @@ pub struct Needs {
 /// When no control can be read as the text says.
 pub fn needs(control: &str) -> Result<Needs, UnknownControl> {
     match find(control)? {
-        Found::Word(stated) => Ok(Needs {
-            tool_change: stated.rules.tool_change,
-            length_offset: stated.rules.length_offset,
-        }),
+        Found::Word(stated) => {
+            Ok(Needs { tool_change: stated.rules.tool_change, length_offset: stated.rules.length_offset })
+        }
         Found::Klartext | Found::Apt => Ok(Needs { tool_change: true, length_offset: false }),
     }
 }
@@ -144,7 +143,8 @@ fn find(control: &str) -> Result<Found, UnknownControl> {
                 Some(apt::NAME) => Found::Apt,
                 _ => return Err(refused(None)),
             };
-            let more = words.next().map(|word| format!("`{word}`: only word-address controls take statements"));
+            let more =
+                words.next().map(|word| format!("`{word}`: only word-address controls take statements"));
             more.map_or(Ok(found), |why| Err(refused(Some(why))))
         }
     }

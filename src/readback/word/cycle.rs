@@ -90,7 +90,8 @@ impl Machine<'_> {
         if !self.cycle_allowed(block, plan, &cycles, out) {
             return;
         }
-        let (Some(hole), Some(repeats)) = (self.hole(block, kind, &cycles, out), repeats(block, &cycles, out))
+        let (Some(hole), Some(repeats)) =
+            (self.hole(block, kind, &cycles, out), repeats(block, &cycles, out))
         else {
             return;
         };
@@ -166,11 +167,7 @@ impl Machine<'_> {
         if level < bottom {
             let u = self.unit();
             let [above, below] = [cycles.level, cycles.bottom].map(|l| self.rules.address(l));
-            out.fault(format!(
-                "{above}{} is below the bottom {below}{} of the hole",
-                level / u,
-                bottom / u
-            ));
+            out.fault(format!("{above}{} is below the bottom {below}{} of the hole", level / u, bottom / u));
             return None;
         }
         let peck = self.peck(kind, level - bottom, cycles, out)?;
@@ -206,7 +203,13 @@ impl Machine<'_> {
 
     /// The peck of G73 and G83, which must be there and lead down; `None` when it isn't.
     #[allow(clippy::option_option)]
-    fn peck<S: Follow>(&self, kind: CycleKind, depth: f64, cycles: &Cycles, out: &mut Out<'_, S>) -> Option<Option<f64>> {
+    fn peck<S: Follow>(
+        &self,
+        kind: CycleKind,
+        depth: f64,
+        cycles: &Cycles,
+        out: &mut Out<'_, S>,
+    ) -> Option<Option<f64>> {
         if !matches!(kind, CycleKind::Deep | CycleKind::ChipBreak) {
             return Some(None);
         }
@@ -268,7 +271,11 @@ impl Machine<'_> {
                 if initial < r && !cycles.higher_return {
                     let u = self.unit();
                     let name = self.rules.address(cycles.level);
-                    out.fault(format!("the height Z{} before the cycle is below {name}{}", initial / u, r / u));
+                    out.fault(format!(
+                        "the height Z{} before the cycle is below {name}{}",
+                        initial / u,
+                        r / u
+                    ));
                 }
                 Some(initial.max(r))
             }

@@ -85,7 +85,11 @@ impl Machine<'_> {
             _ => {}
         }
         let needs_end = match self.rules.frame {
-            Frame::PercentAndNumber | Frame::OptionalNumber | Frame::Name | Frame::PercentName | Frame::End => true,
+            Frame::PercentAndNumber
+            | Frame::OptionalNumber
+            | Frame::Name
+            | Frame::PercentName
+            | Frame::End => true,
             Frame::PercentPairOrEnd => percents == 0,
             // The control would wait for more, which is fine unless the spindle turns.
             Frame::Free => self.state.direction != 0.0,

@@ -362,7 +362,8 @@ impl<'a> Machine<'a> {
         if plan.once != Some(G::Dwell) {
             return;
         }
-        let word = self.rules.dwell.iter().flatten().find_map(|&(l, unit)| block.get(l).map(|v| (l, unit, v)));
+        let word =
+            self.rules.dwell.iter().flatten().find_map(|&(l, unit)| block.get(l).map(|v| (l, unit, v)));
         for &(letter, _) in self.rules.dwell.iter().flatten() {
             *used |= bit(letter);
         }

@@ -31,7 +31,6 @@ pub use stated::{Statement, statements};
 #[cfg(test)]
 mod tests;
 
-
 /// The control that a text names, with what the machine says of itself; `None` where the name is none of this family.
 ///
 /// # Errors

@@ -36,7 +36,12 @@ const STATEMENTS: [(Statement, Set); 25] = [
         frame,
     ),
     row("comments", "`()`, `;`, `();`, `none`", "what starts a comment", comments),
-    row("numbers", "`whole`, `least`, `setting`", "a length without a point: whole units, least increments, or one of them by a setting", numbers),
+    row(
+        "numbers",
+        "`whole`, `least`, `setting`",
+        "a length without a point: whole units, least increments, or one of them by a setting",
+        numbers,
+    ),
     row("line", "a number", "longest line in characters, 0 without limit", line),
     row("most-m", "a number", "M codes in a block", most_m),
     row("motion", "`modal`, `repeated`", "whether motion codes stay in force", motion),
@@ -44,21 +49,48 @@ const STATEMENTS: [(Statement, Set); 25] = [
     row("corners", "`exact`, `said`", "whether the path is exact without G61 or G64", corners),
     row("offsets", "`said`, `none`", "whether programs choose a work offset", offsets),
     row("tool", "`M6`, `T`", "what changes tools", tool),
-    row("length", "`G43`, `word`, `none`", "what takes the tool's length in: G43 with its word, the word alone (0 takes it out), or the tool change", length),
+    row(
+        "length",
+        "`G43`, `word`, `none`",
+        "what takes the tool's length in: G43 with its word, the word alone (0 takes it out), or the tool change",
+        length,
+    ),
     row("length-word", WORD, "word of the tool's length", length_word),
-    row("dwell", "ADDRESS:UNIT, or two with a comma; units: `s`, `ms`, `0.01s`, `point` (s with a point, ms without), `turns`", "words of G4", dwell),
-    row("arc-centre", "`start`, `program`, `said`", "what centre words count from: the arc's start, the program's zero, or as G90.1 and G91.1 say", arc_centre),
+    row(
+        "dwell",
+        "ADDRESS:UNIT, or two with a comma; units: `s`, `ms`, `0.01s`, `point` (s with a point, ms without), `turns`",
+        "words of G4",
+        dwell,
+    ),
+    row(
+        "arc-centre",
+        "`start`, `program`, `said`",
+        "what centre words count from: the arc's start, the program's zero, or as G90.1 and G91.1 say",
+        arc_centre,
+    ),
     row("arc-words", "three addresses with commas", "words of an arc's centre along X, Y and Z", arc_words),
     row("arc-radius", WORD, "word of an arc's radius", arc_radius),
     row("arc-tolerance", "mm", "how far the radii at an arc's start and end may differ", arc_tolerance),
     row("arc-end", "`needed`, `bare`", "whether every arc needs an end word in its plane", arc_end),
-    row("cycle-level", WORD, "word of the height where feed begins in drilling cycles", |r, v| cycle_word(r, v, |c| &mut c.level)),
+    row("cycle-level", WORD, "word of the height where feed begins in drilling cycles", |r, v| {
+        cycle_word(r, v, |c| &mut c.level)
+    }),
     row("cycle-bottom", WORD, "word of the bottom of a hole", |r, v| cycle_word(r, v, |c| &mut c.bottom)),
-    row("cycle-after", WORD, "word of the height to which the tool goes after a hole; without it, it goes to that where feed begins", cycle_after),
+    row(
+        "cycle-after",
+        WORD,
+        "word of the height to which the tool goes after a hole; without it, it goes to that where feed begins",
+        cycle_after,
+    ),
     row("cycle-peck", WORD, "word of the depth of a peck", |r, v| cycle_word(r, v, |c| &mut c.peck)),
     row("cycle-dwell", "ADDRESS:UNIT", "word of the dwell in drilling cycles", cycle_dwell),
     row("cycle-repeat", "an address, `none`", "word that repeats a hole", cycle_repeat),
-    row("cycle-return", "`said`, `level`, `initial`", "where the tool goes after a hole: as G98 and G99 say, or always there", cycle_return),
+    row(
+        "cycle-return",
+        "`said`, `level`, `initial`",
+        "where the tool goes after a hole: as G98 and G99 say, or always there",
+        cycle_return,
+    ),
 ];
 
 /// What may be said behind the name of a word-address control, besides codes.
@@ -82,7 +114,8 @@ pub(super) fn read(text: &str) -> Option<Result<Stated, String>> {
     let name = words.next()?;
     let rules = CONTROLS.into_iter().find(|c| c.name == name)?;
     let mut stated = Stated { rules: *rules, renamed: Vec::new() };
-    let read = words.try_for_each(|word| statement(&mut stated, word).map_err(|why| format!("`{word}`: {why}")));
+    let read =
+        words.try_for_each(|word| statement(&mut stated, word).map_err(|why| format!("`{word}`: {why}")));
     let read = read.and_then(|()| one_meaning_each(&stated.rules));
     Some(read.map(|()| stated))
 }
@@ -95,7 +128,8 @@ fn one_meaning_each(rules: &Rules) -> Result<(), String> {
     words[0].push(("arc-radius", rules.arc_radius));
     if let Some(c) = rules.cycles {
         let always = [("cycle-level", c.level), ("cycle-bottom", c.bottom), ("cycle-peck", c.peck)];
-        let more = [("cycle-repeat", c.repeats), ("cycle-after", c.after), ("cycle-dwell", Some(c.dwell_word))];
+        let more =
+            [("cycle-repeat", c.repeats), ("cycle-after", c.after), ("cycle-dwell", Some(c.dwell_word))];
         let more = more.into_iter().filter_map(|(name, word)| word.map(|word| (name, word)));
         words.push(always.into_iter().chain(more).collect());
     }
@@ -103,7 +137,9 @@ fn one_meaning_each(rules: &Rules) -> Result<(), String> {
         for (at, (name, word)) in words.iter().enumerate() {
             if let Some((other, _)) = words.iter().skip(at + 1).find(|(_, other)| other == word) {
                 let word = rules.address(*word);
-                return Err(format!("`{name}` and `{other}` are both {word}; say another word for one of them"));
+                return Err(format!(
+                    "`{name}` and `{other}` are both {word}; say another word for one of them"
+                ));
             }
         }
     }
@@ -146,7 +182,9 @@ fn address(rules: &mut Rules, text: &str) -> Result<u8, String> {
     let (last, stem) = bytes.split_last().ok_or("it takes an address")?;
     let stem = if *last == b'=' { stem } else { bytes };
     if stem.is_empty() || bytes.len() > ADDRESS || !stem.iter().all(u8::is_ascii_uppercase) {
-        return Err(format!("`{text}` is no address: capital letters, {ADDRESS} characters at most, `=` may be the last"));
+        return Err(format!(
+            "`{text}` is no address: capital letters, {ADDRESS} characters at most, `=` may be the last"
+        ));
     }
     if let [letter] = bytes {
         let taken = matches!(letter, b'G' | b'M' | b'N' | b'O' | b'X' | b'Y');
@@ -191,14 +229,14 @@ fn frame(rules: &mut Rules, value: &str) -> Result<(), String> {
 }
 
 fn comments(rules: &mut Rules, value: &str) -> Result<(), String> {
-    let table = [("()", (true, false)), (";", (false, true)), ("();", (true, true)), ("none", (false, false))];
+    let table =
+        [("()", (true, false)), (";", (false, true)), ("();", (true, true)), ("none", (false, false))];
     (rules.parentheses, rules.semicolon_comment) = choice(value, &table)?;
     Ok(())
 }
 
 fn numbers(rules: &mut Rules, value: &str) -> Result<(), String> {
-    let table =
-        [("whole", Unpointed::Whole), ("least", Unpointed::Least), ("setting", Unpointed::Setting)];
+    let table = [("whole", Unpointed::Whole), ("least", Unpointed::Least), ("setting", Unpointed::Setting)];
     rules.unpointed = choice(value, &table)?;
     Ok(())
 }

@@ -1,7 +1,7 @@
 //! Haas mill, next generation control, from its published post and code lists.
 
-use super::super::codes::{G, Group, M};
 use super::super::block::letters;
+use super::super::codes::{G, Group, M};
 use super::super::rules::{Cycles, Dwell, Rules};
 use super::fanuc;
 

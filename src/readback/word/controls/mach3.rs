@@ -27,8 +27,12 @@ pub(super) const RULES: Rules = Rules {
 };
 
 /// With `G04 Dwell param in Milliseconds` on.
-pub(super) const MILLISECONDS: Rules =
-    Rules { name: "mach3-ms", dwell: [Some((b'P', Dwell::Milliseconds)), None], cycles: Some(CYCLES), ..RULES };
+pub(super) const MILLISECONDS: Rules = Rules {
+    name: "mach3-ms",
+    dwell: [Some((b'P', Dwell::Milliseconds)), None],
+    cycles: Some(CYCLES),
+    ..RULES
+};
 
 const SECONDS: Cycles = Cycles { bore_dwell_feeds_back: false, ..linuxcnc::CYCLES };
 const CYCLES: Cycles = Cycles { dwell: Dwell::Milliseconds, ..SECONDS };

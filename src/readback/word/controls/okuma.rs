@@ -26,7 +26,8 @@ pub(super) const RULES: Rules = Rules {
     ..fanuc::RULES
 };
 
-const CYCLES: Cycles = Cycles { dwell: Dwell::Seconds, return_height: true, repeats: Some(b'L'), ..fanuc::CYCLES };
+const CYCLES: Cycles =
+    Cycles { dwell: Dwell::Seconds, return_height: true, repeats: Some(b'L'), ..fanuc::CYCLES };
 
 fn g(tenths: u16) -> Option<G> {
     Some(match tenths {

@@ -3,10 +3,10 @@
 //! Its blocks are cut by a lexer of their own and executed by the same machine as all word-address programs. Names of the
 //! language (`SUPA`, `COMPCAD` …) stand among the G codes, from 1000 up.
 
+use super::block::letters;
 use super::codes::{G, Group, M, Mode};
 use super::controls::fanuc;
 use super::iso;
-use super::block::letters;
 use super::rules::{Cycles, Dwell, FeedReset, Frame, Language, RotaryFeed, Rules};
 use crate::readback::FeedMode;
 

@@ -135,7 +135,10 @@ fn what_means_nothing_is_refused_with_its_reason() {
         ("G1=M1", "another code"),
         ("G1=", "is no code"),
         ("G1=G2 G1=G3", "G1 is said twice"),
-        ("cycle-level=AB cycle-peck=CD cycle-bottom=EF cycle-after=GH arc-words=IJ,KL,MN", "all there may be"),
+        (
+            "cycle-level=AB cycle-peck=CD cycle-bottom=EF cycle-after=GH arc-words=IJ,KL,MN",
+            "all there may be",
+        ),
     ] {
         let error = run(b"", &format!("linuxcnc {statement}"), &setup()).expect_err(statement).to_string();
         assert!(error.contains("'linuxcnc' means nothing") && error.contains(words), "{statement}: {error}");
