@@ -142,6 +142,32 @@ impl Cutter {
         (sin > 0.0).then_some(on_side)
     }
 
+    /// Bounds over a range of distances from the axis: of the profile's slope, least and most, and of the slope's own
+    /// slope, 1/mm, from below. `None` where it stands upright in the range or ends.
+    pub(super) fn slopes(&self, low: f64, high: f64) -> Option<([f64; 2], f64)> {
+        let [sin, cos] = self.side;
+        let (r, edge) = (self.corner, self.corner * cos);
+        let slope = |beside: f64| {
+            let off = beside - self.disc;
+            match off {
+                _ if off <= 0.0 => Some(0.0),
+                _ if off < edge => Some(off / (r * r - off * off).sqrt()),
+                _ => (sin > 0.0).then(|| cos / sin),
+            }
+        };
+        let (a, b) = (low - self.disc, high - self.disc);
+        let round = if a > 0.0 && b < edge {
+            {
+                let square = (r - a) * (r + a);
+                r * r / (square * square.sqrt())
+            }
+        } else {
+            0.0
+        };
+        let slopes = [slope(low)?, slope(high)?];
+        slopes[1].is_finite().then_some((slopes, round))
+    }
+
     /// Support function of the cutter: largest n·q of its points; `n` is a unit vector.
     pub(super) fn support(&self, n: Vec3) -> f64 {
         self.core_support(n) + self.corner

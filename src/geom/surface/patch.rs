@@ -237,7 +237,10 @@ impl Patch {
 
 /// Restricts one line of poles (start, stride, degree) to the parameter interval by two de Casteljau cuts.
 fn blossom_line(poles: &mut [Homogeneous], start: usize, stride: usize, degree: usize, t: (f64, f64)) {
-    let mut line: Vec<Homogeneous> = (0..=degree).map(|k| poles[start + k * stride]).collect();
+    let mut line = [Homogeneous::zeros(); MAX_DEGREE + 1];
+    for (k, value) in line.iter_mut().enumerate().take(degree + 1) {
+        *value = poles[start + k * stride];
+    }
     // Keep [t0, 1] of the line, then the first (t1 - t0)/(1 - t0) of what is left.
     for round in 0..degree {
         for k in 0..degree - round {
@@ -250,7 +253,7 @@ fn blossom_line(poles: &mut [Homogeneous], start: usize, stride: usize, degree: 
             line[k] = line[k - 1] * (1.0 - rest) + line[k] * rest;
         }
     }
-    for (k, value) in line.into_iter().enumerate() {
+    for (k, value) in line.into_iter().enumerate().take(degree + 1) {
         poles[start + k * stride] = value;
     }
 }

@@ -29,8 +29,14 @@ struct Lane {
     /// Where it lies among the others, mm.
     at: f64,
     track: Track,
+    /// Places at which the cutter was let down.
     stations: Vec<Station>,
+    /// The reference point's way, with chords that leave it by little; broken where nothing is touched.
+    way: Vec<Point>,
 }
+
+/// A point of the reference point's way, and the share of the pass at which it is.
+type Point = (f64, Option<Point3>);
 
 /// A place of a pass, as a share of it.
 #[derive(Clone, Copy)]
@@ -50,14 +56,19 @@ const BETWEEN: (usize, f64) = (3, 0.12);
 const TRIES: u32 = 16;
 /// Passes closer than this are too close, mm.
 const CLOSEST: f64 = 2e-3;
-/// Stations of a pass at first, and their distance as a share of the radius.
-const STATIONS: (usize, usize, f64) = (8, 400, 0.3);
-/// Between stations a pass leaves its chord upwards by no more than this share of the height of ridges …
+/// Stations of a pass at first, an even number, and their distance as a share of the radius.
+const STATIONS: (usize, usize, f64) = (8, 400, 0.16);
+/// Between stations a pass leaves its chord, or the cubic through its neighbours, upwards by no more than this share of the
+/// height of ridges …
 const STRAIGHT: f64 = 0.04;
 /// … unless they were halved so often.
 const DEEPEST: u32 = 5;
+/// Where a cubic tells the way between two stations, it is followed by so many chords at most.
+const CHORDS: f64 = 64.0;
 /// Stations of all passes, tried ones included, before that is given up.
 const MOST: usize = 4_000_000;
+/// Stations with a ridge of this share of the highest are looked at closer, if their neighbours have less.
+const PEAK: f64 = 0.85;
 /// Stations that share their hints.
 const CHUNK: usize = 8;
 
@@ -71,7 +82,7 @@ impl Apart {
         const FIRST: usize = 1000;
         let first = (0..FIRST).map(|k| width * count(k) / count(FIRST)).find_map(|at| Some((at, make(at)?)));
         let Some((at, track)) = first else { return Ok(Vec::new()) };
-        let mut last = self.lane(at, track);
+        let mut last = self.lane(at, track, None);
         let mut step = 2.0 * (2.0 * self.hull.radius() * self.cusp).sqrt();
         let (mut passes, mut spent) = (Vec::new(), 0);
         while let Some((lane, next)) = self.next(&last, (width, step), make, &mut spent)? {
@@ -110,7 +121,8 @@ impl Apart {
                 continue;
             };
             lost = false;
-            let lane = self.lane(last.at + step, track);
+            let lane = self.lane(last.at + step, track, Some(last));
+            *spent += lane.stations.len();
             let ridge = self.ridge(last, &lane, make, spent);
             if ridge <= AIM * self.cusp {
                 (good, best) = (step, Some(lane));
@@ -144,7 +156,7 @@ impl Apart {
 
     /// Where a pass is, in words.
     fn place(&self, lane: &Lane) -> String {
-        let middle = lane.stations.get(lane.stations.len() / 2).and_then(|s| s.contact);
+        let middle = lane.contact(0.5);
         middle.map_or_else(String::new, |c| {
             format!(
                 "they would lie {:.3} mm or less apart about X {:.3}, Y {:.3} mm",
@@ -153,27 +165,86 @@ impl Apart {
         })
     }
 
-    /// A pass with its stations.
-    fn lane(&self, at: f64, track: Track) -> Lane {
+    /// A pass with its stations; `beside`: a pass near by.
+    fn lane(&self, at: f64, track: Track, beside: Option<&Lane>) -> Lane {
+        let mut stations = self.stations(&track, beside);
+        let (mut way, mut more): (Vec<Point>, Vec<Station>) = Default::default();
+        let last = stations.len() - 1;
+        let kept: Vec<bool> = (0..last / 2).map(|k| self.is_smooth(&stations, 2 * k)).collect();
+        for (k, smooth) in kept.iter().enumerate() {
+            for i in 2 * k..2 * k + 2 {
+                let (from, to) = (stations[i], stations[i + 1]);
+                way.push(from.point());
+                if *smooth {
+                    self.follow(&stations, i, &mut way);
+                } else {
+                    let first = more.len();
+                    self.between(&track, (from, to), 1, &mut more);
+                    way.extend(more[first..].iter().map(Station::point));
+                }
+            }
+        }
+        way.push(stations[last].point());
+        stations.extend(more);
+        Lane { at, track, stations, way }
+    }
+
+    /// An odd number of stations at equal distances.
+    fn stations(&self, track: &Track, beside: Option<&Lane>) -> Vec<Station> {
         let ends = [0.0, 1.0].map(|t| track.at(t, None).map(|c| c.centre));
         let length = if let [Some(a), Some(b)] = ends { (b - a).norm() } else { 0.0 };
-        let parts = crate::math::ceil_to_usize(length / (STATIONS.2 * self.hull.radius()));
-        let parts = parts.clamp(STATIONS.0, STATIONS.1);
-        let chunks: Vec<usize> = (0..parts).step_by(CHUNK).collect();
+        let parts = crate::math::ceil_to_usize(0.5 * length / (STATIONS.2 * self.hull.radius()));
+        let parts = 2 * parts.clamp(STATIONS.0 / 2, STATIONS.1 / 2);
+        let chunks: Vec<usize> = (0..=parts).step_by(CHUNK).collect();
         let chunk = |first: &usize| {
-            let mut found = Vec::with_capacity(2 * CHUNK);
-            let mut from = station(&track, count(*first) / count(parts), None);
-            for k in *first..(first + CHUNK).min(parts) {
-                let to = station(&track, count(k + 1) / count(parts), from.contact.as_ref());
-                found.push(from);
-                self.between(&track, (from, to), 0, &mut found);
-                from = to;
+            let mut hint = beside.and_then(|lane| lane.contact(count(*first) / count(parts)));
+            let mut found = Vec::with_capacity(CHUNK);
+            for k in *first..(first + CHUNK).min(parts + 1) {
+                let here = station(track, count(k) / count(parts), hint.as_ref());
+                hint = here.contact.or(hint);
+                found.push(here);
             }
             found
         };
-        let mut stations: Vec<Station> = chunks.par_iter().flat_map_iter(chunk).collect();
-        stations.push(station(&track, 1.0, None));
-        Lane { at, track, stations }
+        chunks.par_iter().flat_map_iter(chunk).collect()
+    }
+
+    /// Whether the way at the middle one of three stations is as the cubic through their outer neighbours has it.
+    fn is_smooth(&self, stations: &[Station], first: usize) -> bool {
+        let height = |k: Option<usize>| stations.get(k?)?.contact.map(|c| c.centre.z);
+        let at = |k: usize| height(Some(k));
+        let (Some(a), Some(m), Some(b)) = (at(first), at(first + 1), at(first + 2)) else { return false };
+        let cubic = match (height(first.checked_sub(2)), at(first + 4)) {
+            (Some(before), Some(after)) => (9.0 * (a + b) - before - after) / 16.0,
+            (None, Some(after)) => (3.0 * a + 6.0 * b - after) / 8.0,
+            (Some(before), None) => (6.0 * a + 3.0 * b - before) / 8.0,
+            (None, None) => 0.5 * (a + b),
+        };
+        (m - cubic).abs() <= 0.5 * STRAIGHT * self.cusp
+    }
+
+    /// Points between a station and the next on the cubic through these and their neighbours.
+    fn follow(&self, stations: &[Station], i: usize, way: &mut Vec<Point>) {
+        let centre = |k: Option<usize>| stations.get(k?)?.contact.map(|c| c.centre.coords);
+        let (Some(a), Some(b)) = (centre(Some(i)), centre(Some(i + 1))) else { return };
+        let before = centre(i.checked_sub(1)).unwrap_or(a * 2.0 - b);
+        let after = centre(Some(i + 2)).unwrap_or(b * 2.0 - a);
+        let bend = (before - a * 2.0 + b).z.abs().max((a - b * 2.0 + after).z.abs());
+        let parts = (bend / (8.0 * STRAIGHT * self.cusp)).sqrt().ceil().clamp(1.0, CHORDS);
+        let mut k = 1.0;
+        while k < parts {
+            let t = k / parts;
+            let weights = [
+                -t * (t - 1.0) * (t - 2.0) / 6.0,
+                (t + 1.0) * (t - 1.0) * (t - 2.0) / 2.0,
+                -(t + 1.0) * t * (t - 2.0) / 2.0,
+                (t + 1.0) * t * (t - 1.0) / 6.0,
+            ];
+            let p = before * weights[0] + a * weights[1] + b * weights[2] + after * weights[3];
+            let share = stations[i].share + (stations[i + 1].share - stations[i].share) * t;
+            way.push((share, Some(p.into())));
+            k += 1.0;
+        }
     }
 
     /// Stations between two, where the pass is not straight enough.
@@ -185,7 +256,7 @@ impl Apart {
                 found.push(middle);
                 return;
             }
-        } else if depth >= 1 {
+        } else if depth >= 2 {
             return;
         }
         self.between(track, (from, middle), depth + 1, found);
@@ -204,14 +275,21 @@ impl Apart {
             let place = if k % 2 == 0 { middle + k / 2 } else { middle - k.div_ceil(2) };
             let at = a.at + (b.at - a.at) * count(place) / count(places + 1);
             let Some(track) = make(at) else { continue };
-            let lane = self.lane(at, track);
-            *spent += lane.stations.len();
+            let stations = self.stations(&track, Some(a));
+            *spent += stations.len();
             let left = |station: &Station| {
-                let touched = station.contact.map(|c| (c, self.normal(&lane.track, &c)));
+                let touched = station.contact.map(|c| (c, self.normal(&track, &c)));
                 touched.as_ref().map_or(0.0, |t| self.adds((a, b), t, station.share))
             };
-            let here: Vec<f64> = lane.stations.par_iter().map(left).collect();
-            highest = here.into_iter().fold(highest, f64::max);
+            let here: Vec<f64> = stations.par_iter().map(left).collect();
+            highest = here.iter().copied().fold(highest, f64::max);
+            // About the highest ones the ridge is looked at closer.
+            for k in crests(&here, PEAK * highest) {
+                let (from, own, to) = (&stations[k - 1], &stations[k], &stations[k + 1]);
+                for share in [0.5 * (from.share + own.share), 0.5 * (own.share + to.share)] {
+                    highest = highest.max(left(&station(&track, share, own.contact.as_ref())));
+                }
+            }
             if highest > AIM * self.cusp {
                 break;
             }
@@ -246,12 +324,12 @@ impl Apart {
     /// What a pass leaves on a point that the cutter touches beside it, about a share of its length.
     fn left(&self, lane: &Lane, (touched, normal): &(Contact, Vec3), share: f64) -> f64 {
         const AROUND: usize = 2;
-        let last = lane.stations.len() - 1;
+        let last = lane.way.len() - 1;
         let apart = |k: usize| {
-            let at = lane.stations[k].contact.map(|c| (c.centre - touched.centre).xy().norm_squared());
+            let at = lane.way[k].1.map(|c| (c - touched.centre).xy().norm_squared());
             at.unwrap_or(f64::INFINITY)
         };
-        let mut nearest = lane.stations.partition_point(|s| s.share < share).min(last);
+        let mut nearest = lane.way.partition_point(|p| p.0 < share).min(last);
         while nearest > 0 && apart(nearest - 1) < apart(nearest) {
             nearest -= 1;
         }
@@ -260,13 +338,36 @@ impl Apart {
         }
         let ray = (touched.foot.point, *normal);
         let part = |k: usize| {
-            let at = |k: usize| Some(lane.stations.get(k)?.contact?.centre);
+            let at = |k: usize| lane.way.get(k)?.1;
             let (Some(from), Some(to)) = (at(k), at(k + 1)) else { return f64::INFINITY };
             self.leaves((from, to), ray)
         };
         let parts = nearest.saturating_sub(AROUND)..(nearest + AROUND).min(last);
         parts.map(part).fold(f64::INFINITY, f64::min)
     }
+}
+
+impl Lane {
+    /// A contact about a share of the pass.
+    fn contact(&self, share: f64) -> Option<Contact> {
+        let near = self.stations.iter().min_by(|a, b| {
+            let off = |s: &Station| (s.share - share).abs();
+            off(a).total_cmp(&off(b))
+        });
+        near.and_then(|s| s.contact)
+    }
+}
+
+impl Station {
+    fn point(&self) -> Point {
+        (self.share, self.contact.map(|c| c.centre))
+    }
+}
+
+/// The inner places that are at least so high, and as high as their neighbours.
+fn crests(heights: &[f64], least: f64) -> Vec<usize> {
+    let is_crest = |w: &[f64]| w[1] >= least && w[1] >= w[0].max(w[2]);
+    heights.windows(3).enumerate().filter(|(_, w)| is_crest(w)).map(|(k, _)| k + 1).collect()
 }
 
 fn station(track: &Track, share: f64, hint: Option<&Contact>) -> Station {

@@ -38,9 +38,13 @@ pub fn extremes(
     if question.little.is_infinite() || enters && distance <= 0.0 {
         return Extremes { least, most: least, foot };
     }
-    let hunt = Hunt { tree, cutter, from, to, question };
-    let (most, foot) = hunt.most(hint);
-    Extremes { least, most, foot }
+    let hunt = Hunt { tree, cutter, from, to, question, everywhere: false };
+    let (most, last) = hunt.most(&foot);
+    if most.distance > question.little && !hunt.is_nearest(&most) {
+        let (most, foot) = Hunt { everywhere: true, ..hunt }.most(&last);
+        return Extremes { least, most, foot };
+    }
+    Extremes { least, most, foot: last }
 }
 
 /// Where on the way the core comes nearest to a point.
@@ -57,6 +61,8 @@ struct Hunt<'a> {
     from: Point3,
     to: Point3,
     question: &'a Question,
+    /// Whether the nearest point of the whole surface is looked for: without, one near the place before.
+    everywhere: bool,
 }
 
 #[derive(Clone, Copy)]
@@ -74,20 +80,32 @@ struct Parabola {
 }
 
 impl Hunt<'_> {
-    fn look(&self, s: f64, along: Vec3, hint: Option<&Foot>) -> Sample {
+    /// A place of the way. Any point of the surface bounds the distance from above, if not always closely.
+    fn look(&self, s: f64, along: Vec3, hint: &Foot) -> Sample {
         let x = self.from + along * s;
-        let foot = self.tree.near(self.cutter, (x, x), f64::INFINITY, SAMPLED, hint);
+        let foot = if self.everywhere {
+            self.tree.near(self.cutter, (x, x), f64::INFINITY, SAMPLED, Some(hint))
+        } else {
+            self.tree.beside(self.cutter, x, hint)
+        };
         let (d, normal) = self.cutter.outside_core(foot.point - x);
         Sample { s, d, normal, foot }
     }
 
+    /// Whether no other point of the surface is nearer at a place than was found.
+    fn is_nearest(&self, found: &Extreme) -> bool {
+        let way = (found.at, found.at);
+        let foot = self.tree.near(self.cutter, way, found.distance, SAMPLED, None);
+        foot.distance >= found.distance - self.question.accuracy
+    }
+
     /// The largest distance along the way, and the foot of its end.
-    fn most(&self, hint: Option<&Foot>) -> (Extreme, Foot) {
+    fn most(&self, hint: &Foot) -> (Extreme, Foot) {
         let way = self.to - self.from;
         let length = way.norm();
         let along = if length > 0.0 { way / length } else { Vec3::zeros() };
         let first = self.look(0.0, along, hint);
-        let last = self.look(length, along, Some(&first.foot));
+        let last = self.look(length, along, &first.foot);
         let mut best = if last.d > first.d { (last.d, last.s) } else { (first.d, first.s) };
         let mut stack = vec![(first, last)];
         let mut left = BUDGET;
@@ -103,7 +121,7 @@ impl Hunt<'_> {
             }
             left -= 1;
             let h = b.s - a.s;
-            let middle = self.look(at.clamp(a.s + 0.1 * h, b.s - 0.1 * h), along, Some(&a.foot));
+            let middle = self.look(at.clamp(a.s + 0.1 * h, b.s - 0.1 * h), along, &a.foot);
             if middle.d > best.0 {
                 best = (middle.d, middle.s);
             }
@@ -129,14 +147,15 @@ impl Hunt<'_> {
         if still < high { (still, a.s + 0.5 * h) } else { (high, a.s + t) }
     }
 
-    /// The surface's point slides with the cutter as far as its patch goes.
+    /// The surface's point slides with the cutter as far as its patch goes. Along the normal the distance changes as the
+    /// point does; a way `w` at right angles to it makes a distance d no more than √(d² + w²).
     fn parabola(&self, sample: &Sample, along: Vec3, h: f64) -> Parabola {
         let n = sample.normal;
         let level = along - n * n.dot(&along);
         let slide = self.tree.slide(&sample.foot, level, h);
-        let slope = -n.dot(&along);
-        let left = slide.left.norm();
-        let room = sample.d - h;
+        let falls = n.dot(&slide.left);
+        let (slope, left) = (-n.dot(&along) - falls, (slide.left - n * falls).norm());
+        let room = sample.d - h * slope.abs();
         let behind = Parabola { slope: slope + left, curve: slide.curve };
         let round = if room > 0.0 { left * left / room } else { f64::INFINITY };
         if round * h * 0.5 < left { Parabola { slope, curve: slide.curve + round } } else { behind }

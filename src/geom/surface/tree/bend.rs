@@ -44,6 +44,11 @@ impl Bend {
         })
     }
 
+    /// The largest lengths of r_uu, r_uv, r_vv over the rectangle.
+    pub(super) fn lengths(&self) -> [f64; 3] {
+        self.second.map(|(c, r)| (c.abs() + r).norm() * (1.0 + ROUNDING))
+    }
+
     /// How far a rectangle with these half widths spreads about its middle along each axis, mm.
     pub(super) fn spread(&self, jet: &SurfaceJet, [du, dv]: [f64; 2]) -> Vec3 {
         let [uu, uv, vv] = self.second.map(|(c, r)| c.abs() + r);

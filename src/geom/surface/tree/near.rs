@@ -2,6 +2,8 @@
 //!
 //! The core swept along a straight way is convex as well: one search tells its distance from the whole surface.
 
+use core::cell::Cell;
+
 use super::search::{Aim, Search, solve};
 use super::{Foot, SurfaceTree};
 use crate::geom::surface::cutter::{Cutter, length};
@@ -13,10 +15,13 @@ struct Sweep<'a> {
     cutter: &'a Cutter,
     from: Point3,
     way: Vec3,
+    /// The point asked about last: much is asked about each.
+    last: Cell<Option<(Point3, Nearest)>>,
 }
 
 /// Where on the way the core comes nearest to a point: share of the way, the point seen from there, distance and
 /// outward normal.
+#[derive(Clone, Copy)]
 struct Nearest {
     share: f64,
     q: Vec3,
@@ -29,16 +34,29 @@ const ROUNDS: u32 = 60;
 /// Distances that agree so well are the same, mm.
 const SAME: f64 = 1e-12;
 
-impl Sweep<'_> {
+impl<'a> Sweep<'a> {
+    fn new(cutter: &'a Cutter, (from, to): (Point3, Point3)) -> Sweep<'a> {
+        Sweep { cutter, from, way: to - from, last: Cell::new(None) }
+    }
+
     fn at(&self, offset: Vec3, share: f64) -> Nearest {
         let q = offset - self.way * share;
         let (distance, normal) = self.cutter.outside_core(q);
         Nearest { share, q, distance, normal }
     }
 
+    fn nearest(&self, q: Point3) -> Nearest {
+        if let Some((_, near)) = self.last.get().filter(|(last, _)| *last == q) {
+            return near;
+        }
+        let near = self.find(q);
+        self.last.set(Some((q, near)));
+        near
+    }
+
     /// The distance is convex along the way, with the slope -n·way: where that changes its sign, by the rule of false
     /// position (with Illinois' weights), until the tangents at both sides leave nothing below.
-    fn nearest(&self, q: Point3) -> Nearest {
+    fn find(&self, q: Point3) -> Nearest {
         let offset = q - self.from;
         let slope = |near: &Nearest| -near.normal.dot(&self.way);
         let mut a = self.at(offset, 0.0);
@@ -121,6 +139,10 @@ impl Aim for Sweep<'_> {
     fn plane(&self, n: Vec3) -> Option<(f64, f64)> {
         Some((1.0, self.support(-n)))
     }
+    fn sizes(&self) -> [f64; 4] {
+        let radius = self.cutter.corner() + self.cutter.flat();
+        [4.0 * radius, radius, 0.0, 0.0]
+    }
     /// Newton's step for the distance over the patch.
     fn step(&self, jet: &SurfaceJet) -> Option<[f64; 2]> {
         let near = self.nearest(jet.p);
@@ -159,8 +181,8 @@ impl Cutter {
     /// How far a point is outside of this cutter on its way (below zero: inside), and the outward normal there. The
     /// reference point goes from `from` to `to`.
     #[must_use]
-    pub fn outside(&self, (from, to): (Point3, Point3), q: Point3) -> (f64, Vec3) {
-        let near = Sweep { cutter: self, from, way: to - from }.nearest(q);
+    pub fn outside(&self, way: (Point3, Point3), q: Point3) -> (f64, Vec3) {
+        let near = Sweep::new(self, way).find(q);
         (near.distance - self.corner(), near.normal)
     }
 
@@ -200,7 +222,7 @@ impl SurfaceTree {
         accuracy: f64,
         hint: Option<&Foot>,
     ) -> Foot {
-        let aim = Sweep { cutter, from: way.0, way: way.1 - way.0 };
+        let aim = Sweep::new(cutter, way);
         let mut search = Search::new(self, &aim, accuracy).above(-within);
         if let Some(foot) = hint {
             search.start(foot.patch, foot.uv);
@@ -210,6 +232,21 @@ impl SurfaceTree {
         match search.spot {
             Some(s) => Foot { patch: s.patch, uv: s.uv, point: s.point, distance: -search.best, certain },
             None => Foot { patch: 0, uv: [0.0, 0.0], point: way.0, distance: certain, certain },
+        }
+    }
+
+    /// The point near `hint` that the core of a cutter with its reference point at `x` comes nearest to, or one on the way
+    /// there: the surface is no farther away.
+    #[must_use]
+    pub fn beside(&self, cutter: &Cutter, x: Point3, hint: &Foot) -> Foot {
+        let aim = Sweep::new(cutter, (x, x));
+        let mut search = Search::new(self, &aim, SAME);
+        search.start(hint.patch, hint.uv);
+        match search.spot {
+            Some(s) => {
+                Foot { patch: s.patch, uv: s.uv, point: s.point, distance: -search.best, certain: 0.0 }
+            }
+            None => *hint,
         }
     }
 }

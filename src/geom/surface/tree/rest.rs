@@ -1,5 +1,6 @@
 //! Where a cutter rests that is let down on the surface: the highest of the heights at which its points hold it.
 
+use super::bend::Bend;
 use super::search::{Aim, NOTHING, Search, solve};
 use super::{Foot, SurfaceTree};
 use crate::geom::surface::cutter::{Cutter, length};
@@ -7,8 +8,10 @@ use crate::geom::surface::drop::Contact;
 use crate::geom::surface::patch::SurfaceJet;
 use crate::geom::{Point3, Vec3};
 
-/// Accuracy of the height, mm.
-const ACCURACY: f64 = 1e-9;
+/// Nowhere else is the cutter held higher than where it is said to rest by more than this, mm.
+const ACCURACY: f64 = 1e-7;
+/// Of a sharp cutter, the share of its flat's radius within which its rim is taken for round.
+const SHARP: f64 = 0.05;
 /// Planes steeper than this (n·z) hold no cutter.
 const UPRIGHT: f64 = 1e-4;
 
@@ -54,6 +57,27 @@ impl Aim for Lowering<'_> {
     fn step(&self, jet: &SurfaceJet) -> Option<[f64; 2]> {
         self.to_summit(jet).or_else(|| self.to_rim(jet))
     }
+    fn sizes(&self) -> [f64; 4] {
+        let (corner, flat) = (self.cutter.corner(), self.cutter.flat());
+        let small = corner.max(SHARP * flat);
+        [4.0 * (corner + flat), 0.4 * (corner + flat), 0.5 * small, 0.15 * small]
+    }
+    /// With p(ρ) the profile's height above the distance ρ from the axis, the score is z - p(ρ). It is below z - p₁(ρ) with p₁ the
+    /// profile's tangent, a cone, however far from the place; near it, p bends away from that.
+    fn concave(&self, at: &SurfaceJet, bend: &Bend, half: [f64; 2]) -> Option<[f64; 2]> {
+        let [x, y] = self.beside(at.p);
+        let beside = length(x, y);
+        let about = bend.spread(at, half);
+        let far = length(about.x, about.y);
+        let ([own, _], _) = self.cutter.slopes(beside, beside)?;
+        let e = if beside > 0.0 { [x / beside, y / beside] } else { [1.0, 0.0] };
+        let place = Place { at, bend, half, e, beside, far, own };
+        let bends = || {
+            let ([least, most], round) = self.cutter.slopes((beside - far).max(0.0), beside + far)?;
+            place.under(least, most, round)
+        };
+        place.under(own, own, 0.0).or_else(bends)
+    }
 }
 
 impl Lowering<'_> {
@@ -98,6 +122,67 @@ impl Lowering<'_> {
     }
 }
 
+/// A place under a cutter, and a rectangle of the surface about it.
+struct Place<'a> {
+    at: &'a SurfaceJet,
+    bend: &'a Bend,
+    /// Half widths of the rectangle.
+    half: [f64; 2],
+    /// Away from the axis.
+    e: [f64; 2],
+    /// Distance from the axis, and how far the rectangle reaches in plan, mm.
+    beside: f64,
+    far: f64,
+    /// The profile's slope.
+    own: f64,
+}
+
+impl Place<'_> {
+    /// The gradient of z - p(ρ), if that is concave over the rectangle. With e and t the unit vectors away from the axis and
+    /// about it, its second derivatives are m·r″ - p″ (e·r′)² - p′/ρ (t·r′)², m = (-p′ e, 1), p′ between `least` and
+    /// `most`, p″ at least `round`. Over the rectangle e turns, r′ and p′ change; what that takes of the
+    /// squares is bounded by (x + y)² >= 2/3 x² - 2 y². Parameters are such that r′ is e and t in plan at the place itself.
+    fn under(&self, least: f64, most: f64, round: f64) -> Option<[f64; 2]> {
+        let Place { at, bend, half, e, own, .. } = *self;
+        let turn = if most > 0.0 { 1.58 * self.far / self.beside } else { 0.0 };
+        let m = Vec3::new(-own * e[0], -own * e[1], 1.0);
+        let about_axis = least / (self.beside + self.far);
+        let sways = (most - own).max(own - least) + most * turn;
+        let lengths = bend.lengths();
+        let changes = [0, 1].map(|i| lengths[i] * half[0] + lengths[i + 1] * half[1]);
+        let plan = |r: &Vec3| [e[0] * r.x + e[1] * r.y, e[0] * r.y - e[1] * r.x];
+        let ([a, b], [c, d]) = (plan(&at.u), plan(&at.v));
+        let det = a * d - b * c;
+        // (u, v) for steps along e and about the axis.
+        let frame = [[d / det, -b / det], [-c / det, a / det]];
+        let second = bend.along(m);
+        let curved = |p: [f64; 2], q: [f64; 2]| {
+            let weights = [p[0] * q[0], p[0] * q[1] + p[1] * q[0], p[1] * q[1]];
+            let own = |k: usize| {
+                let (lo, hi) = (weights[k] * second[k].lo, weights[k] * second[k].hi);
+                let more = weights[k].abs() * sways * lengths[k];
+                [lo.min(hi) - more, lo.max(hi) + more]
+            };
+            [0, 1, 2].map(own).iter().fold([0.0, 0.0], |s, o| [s[0] + o[0], s[1] + o[1]])
+        };
+        let off = frame.map(|w| {
+            let change = w[0].abs() * changes[0] + w[1].abs() * changes[1];
+            change + turn * (1.0 + change)
+        });
+        if !(off[0] < 1.0 && off[1] < 1.0) {
+            return None;
+        }
+        let kept = off.map(|o| 2.0 / 3.0 * (1.0 - o) * (1.0 - o));
+        let lost = off.map(|o| 2.0 * o * o);
+        let across = curved(frame[0], frame[0])[1] - round * kept[0] + about_axis * lost[0];
+        let around = curved(frame[1], frame[1])[1] - about_axis * kept[1] + round * lost[1];
+        let [low, high] = curved(frame[0], frame[1]);
+        let mixed = high.max(-low);
+        let concave = across < 0.0 && around < 0.0 && across * around > mixed * mixed * (1.0 + 1e-9);
+        concave.then(|| [m.dot(&at.u), m.dot(&at.v)])
+    }
+}
+
 /// Newton's step for two equations in different units.
 fn scaled(a: [f64; 2], b: [f64; 2], off: [f64; 2]) -> Option<[f64; 2]> {
     let size = length(a[1], b[1]);
@@ -128,7 +213,8 @@ impl SurfaceTree {
         search.run();
         let spot = search.spot.filter(|_| search.best > NOTHING)?;
         // What was given up could hold the cutter higher: then it is held there.
-        let height = if search.bound() > search.best + ACCURACY { search.bound() } else { search.best };
+        let height =
+            if search.bound() > search.best + 1.01 * ACCURACY { search.bound() } else { search.best };
         let jet = self.net.patches()[spot.patch].jet(spot.uv[0], spot.uv[1]);
         let inside = spot.uv.iter().all(|t| *t > 0.0 && *t < 1.0);
         let facing = || aim.facing(spot.point);

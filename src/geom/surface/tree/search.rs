@@ -4,10 +4,12 @@
 //! the piece's middle with its leaf's bounds of the second derivatives. The planes tried are parallel to the surface
 //! in the middle of the piece, to the tool where it faces the piece or the best place so far, and to both as far as a sharp
 //! rim lets them. Near the best place they are right to the second order, whether the tool is rounded there or sharp: a
-//! few pieces of every size settle it.
+//! few pieces of every size settle it. About a place where the tool's own roundness makes the score concave, a rectangle is
+//! settled at once: where a concave function does not rise, it is largest.
 
 use std::collections::BinaryHeap;
 
+use super::bend::Bend;
 use super::{Area, Kind, Leaf, SurfaceTree};
 use crate::geom::extremum::Section;
 use crate::geom::surface::patch::SurfaceJet;
@@ -32,6 +34,15 @@ pub(super) trait Aim {
     fn plane(&self, n: Vec3) -> Option<(f64, f64)>;
     /// Newton's step in the patch's parameters towards the best place.
     fn step(&self, jet: &SurfaceJet) -> Option<[f64; 2]>;
+    /// Sizes of a rectangle about a best place on which the score may be concave, mm, the larger first.
+    fn sizes(&self) -> [f64; 4] {
+        [0.0; 4]
+    }
+    /// The score's gradient at a place, if the score is certainly concave over a rectangle of these half widths about it, over
+    /// which `bend` bounds the derivatives.
+    fn concave(&self, _at: &SurfaceJet, _bend: &Bend, _half: [f64; 2]) -> Option<[f64; 2]> {
+        None
+    }
 }
 
 /// Scores below this are no scores.
@@ -53,6 +64,12 @@ pub(super) struct Search<'a, A> {
     pub best: f64,
     pub spot: Option<Spot>,
     facing: Option<Vec3>,
+    /// Whether Newton's method, or a search along an edge, led to the best place.
+    polished: bool,
+    /// Nothing in this rectangle of a patch is better than the best place, but for the accuracy.
+    summit: Option<(usize, Area)>,
+    /// Whether such a rectangle about the best place has been looked for.
+    surveyed: bool,
     /// Scores of at most this are of no interest.
     floor: f64,
     accuracy: f64,
@@ -96,7 +113,7 @@ const STEPS: u32 = 8;
 /// Depths between attempts to come to the best place by Newton's method.
 const EVERY: u32 = 3;
 /// From this depth on, pieces are bounded by their poles as well.
-const HULL_FROM: u32 = 2;
+const HULL_FROM: u32 = 5;
 /// Pieces are not cut below this size of their parameters.
 const SMALLEST: f64 = 1e-11;
 
@@ -108,6 +125,9 @@ impl<'a, A: Aim> Search<'a, A> {
             best: f64::NEG_INFINITY,
             spot: None,
             facing: None,
+            polished: false,
+            summit: None,
+            surveyed: false,
             floor: NOTHING,
             accuracy,
             open: f64::NEG_INFINITY,
@@ -134,6 +154,7 @@ impl<'a, A: Aim> Search<'a, A> {
     }
 
     pub(super) fn run(&mut self) {
+        self.survey();
         let mut open = BinaryHeap::from([Open { bound: f64::INFINITY, part: Part::Node(0) }]);
         while let Some(Open { bound, part }) = open.pop() {
             if bound <= self.limit() {
@@ -142,6 +163,10 @@ impl<'a, A: Aim> Search<'a, A> {
             match part {
                 Part::Node(node) => self.node(node, &mut open),
                 Part::Piece(leaf, area, depth) => {
+                    self.survey_on(leaf, &area);
+                    if self.is_settled(leaf, &area) {
+                        continue;
+                    }
                     let [du, dv] = area.half();
                     if self.budget == 0 || du.max(dv) < SMALLEST {
                         self.open = self.open.max(bound);
@@ -175,8 +200,11 @@ impl<'a, A: Aim> Search<'a, A> {
     /// Looks at a piece, and keeps it for later if it may hold something better than what is known.
     fn piece(&mut self, leaf: u32, area: Area, depth: u32, before: f64, open: &mut BinaryHeap<Open>) {
         let own = &self.tree.leaves[leaf as usize];
+        if self.is_settled(leaf, &area) {
+            return;
+        }
         let Some(bound) = self.bound_of(own, &area, depth) else { return };
-        if depth.is_multiple_of(EVERY) {
+        if depth.is_multiple_of(EVERY) && !(self.polished && self.is_about_best(own.patch, &area)) {
             self.approach(own.patch, area.middle());
             self.edges(own.patch, &area);
         }
@@ -184,6 +212,71 @@ impl<'a, A: Aim> Search<'a, A> {
         if bound > self.limit() {
             open.push(Open { bound, part: Part::Piece(leaf, area, depth) });
         }
+    }
+
+    /// Whether the best place lies on a piece or beside it.
+    fn is_about_best(&self, patch: usize, area: &Area) -> bool {
+        let [du, dv] = area.half();
+        let around = Area { u: (area.u.0 - du, area.u.1 + du), v: (area.v.0 - dv, area.v.1 + dv) };
+        self.spot.is_some_and(|s| s.patch == patch && around.holds(s.uv))
+    }
+
+    /// Whether nothing on a piece is better than the best place.
+    fn is_settled(&self, leaf: u32, area: &Area) -> bool {
+        let patch = self.tree.leaves[leaf as usize].patch;
+        self.summit.is_some_and(|(own, top)| {
+            own == patch
+                && top.u.0 <= area.u.0
+                && area.u.1 <= top.u.1
+                && top.v.0 <= area.v.0
+                && area.v.1 <= top.v.1
+        })
+    }
+
+    /// Looks for a rectangle about the best place over which the score is concave, once a piece with it on is to be cut up.
+    fn survey_on(&mut self, leaf: u32, area: &Area) {
+        let patch = self.tree.leaves[leaf as usize].patch;
+        if self.is_about_best(patch, area) {
+            self.survey();
+        }
+    }
+
+    fn survey(&mut self) {
+        if self.surveyed || !self.polished {
+            return;
+        }
+        let Some(Spot { patch, uv: [u, v], .. }) = self.spot else { return };
+        self.surveyed = true;
+        let jet = self.tree.net.patches()[patch].jet(u, v);
+        for size in self.aim.sizes() {
+            let half = [size / jet.u.norm(), size / jet.v.norm()];
+            if !half.iter().all(|h| h.is_finite() && *h > 0.0) {
+                return;
+            }
+            let part = |t: f64, h: f64| ((t - h).max(0.0), (t + h).min(1.0));
+            let about = Area { u: part(u, half[0]), v: part(v, half[1]) };
+            let bend = Bend::new(&self.tree.derivatives[patch].boxes(about.u, about.v));
+            let most = |g: f64, t: f64, (a, b): (f64, f64)| (g * (a - t)).max(g * (b - t));
+            let rises = |g: [f64; 2]| most(g[0], u, about.u) + most(g[1], v, about.v);
+            let curved = || self.aim.concave(&jet, &bend, half).is_some_and(|g| rises(g) <= self.accuracy);
+            if self.falls_off(&jet, &bend, &rises) || curved() {
+                self.summit = Some((patch, about));
+                return;
+            }
+        }
+    }
+
+    /// Whether all of a rectangle about the best place lies below a plane that touches the tool there, but for the accuracy.
+    fn falls_off(&self, at: &SurfaceJet, bend: &Bend, rises: &dyn Fn([f64; 2]) -> f64) -> bool {
+        let below = |n: Vec3| {
+            let Some((scale, offset)) = self.aim.plane(n) else { return false };
+            let above = scale * (n.dot(&at.p.coords) + offset) - self.best;
+            let [uu, uv, vv] = bend.along(n);
+            let mixed = uv.magnitude();
+            let concave = uu.hi < 0.0 && vv.hi < 0.0 && uu.hi * vv.hi > mixed * mixed * (1.0 + 1e-9);
+            concave && above + scale * rises([n.dot(&at.u), n.dot(&at.v)]) <= self.accuracy
+        };
+        at.normal().is_some_and(below) || self.facing.is_some_and(below)
     }
 
     /// The bound of a piece, if it may hold something better than what is known.
@@ -236,27 +329,29 @@ impl<'a, A: Aim> Search<'a, A> {
             self.best = score;
             self.spot = Some(Spot { patch, uv, point });
             self.facing = self.aim.facing(point);
+            (self.polished, self.surveyed, self.summit) = (false, false, None);
         }
     }
 
     /// Newton's method from a place.
     fn approach(&mut self, patch: usize, from: [f64; 2]) {
-        let surface = &self.tree.net.patches()[patch];
+        let (surface, before) = (&self.tree.net.patches()[patch], self.best);
         let mut uv = from;
-        for _ in 0..STEPS {
+        for _ in 0..=STEPS {
             let jet = surface.jet(uv[0], uv[1]);
+            self.offer(patch, uv, jet.p);
             let Some(step) = self.aim.step(&jet) else { return };
             let next = Area::WHOLE.clamp([uv[0] + step[0], uv[1] + step[1]]);
             let moved = (next[0] - uv[0]).abs().max((next[1] - uv[1]).abs());
             if !moved.is_finite() {
                 return;
             }
-            uv = next;
-            self.offer(patch, uv, surface.point(uv[0], uv[1]));
             if moved < 1e-12 {
-                return;
+                break;
             }
+            uv = next;
         }
+        self.polished |= self.best > before;
     }
 
     /// The best places on edges of the patch that a piece touches.
@@ -277,7 +372,7 @@ impl<'a, A: Aim> Search<'a, A> {
     /// Golden section about a part of an edge.
     fn along_edge(&mut self, patch: usize, (a, b): (f64, f64), middle: f64, place: &dyn Fn(f64) -> [f64; 2]) {
         const ROUNDS: usize = 48;
-        let surface = &self.tree.net.patches()[patch];
+        let (surface, before) = (&self.tree.net.patches()[patch], self.best);
         let reach = b - a;
         let range = ((middle - reach).max(0.0), (middle + reach).min(1.0));
         let score = |t: f64| {
@@ -289,6 +384,7 @@ impl<'a, A: Aim> Search<'a, A> {
             let [u, v] = place(t);
             self.offer(patch, [u, v], surface.point(u, v));
         }
+        self.polished |= self.best > before;
     }
 }
 
