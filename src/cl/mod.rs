@@ -222,6 +222,8 @@ pub struct Pass {
     pub band: Band,
     /// It is the way from one pass to the next.
     pub link: bool,
+    /// Arcs are welcome, where the pass runs in a plane in which the control has them.
+    pub arcs: bool,
     /// How far the path may be to the side of the track, mm, at equidistant parameters from 0 to 1: what the distance
     /// to its neighbours leaves. Empty: as far as it likes.
     pub room: Vec<f64>,

@@ -528,4 +528,6 @@ pub struct Surface {
     pub stock_top: Option<f64>,
     /// `ROUGH`: from the blank, or what an operation before has left of it.
     pub rough: bool,
+    /// Passes may be arcs.
+    pub arcs: bool,
 }

@@ -90,7 +90,7 @@ impl Reason {
     }
 }
 
-fn plane_name(plane: Plane) -> &'static str {
+pub(super) fn plane_name(plane: Plane) -> &'static str {
     match plane {
         Plane::Xy => "XY",
         Plane::Zx => "ZX",
@@ -114,7 +114,7 @@ impl Emitter<'_> {
         self.exact = Some(circle.to);
     }
 
-    fn part(&mut self, (to, arc): Part, feed: FeedWord) {
+    pub(super) fn part(&mut self, (to, arc): Part, feed: FeedWord) {
         match arc {
             None => self.line(to, feed),
             Some((plane, centre, clockwise)) => {
@@ -272,7 +272,7 @@ impl Emitter<'_> {
 }
 
 /// A part of a circle: its end, and plane, centre and sense when it is an arc.
-type Part = (Position, Option<(Plane, [i64; 2], bool)>);
+pub(super) type Part = (Position, Option<(Plane, [i64; 2], bool)>);
 
 /// The share `x` of a whole number of steps, rounded.
 fn share(steps: i64, x: f64) -> i64 {
@@ -281,7 +281,7 @@ fn share(steps: i64, x: f64) -> i64 {
 
 /// Centre minus start, in centre steps, near `hub` (in centre steps) with the least difference of the radii: a
 /// centre may slide along the bisector of the chord.
-fn centre(start: [i64; 2], to: [i64; 2], hub: Point2, scale: i64) -> Option<[i64; 2]> {
+pub(super) fn centre(start: [i64; 2], to: [i64; 2], hub: Point2, scale: i64) -> Option<[i64; 2]> {
     let s = [(start[0] * scale) as f64, (start[1] * scale) as f64];
     let e = [((to[0] - start[0]) * scale) as f64, ((to[1] - start[1]) * scale) as f64];
     let base = [hub.x - s[0], hub.y - s[1]];

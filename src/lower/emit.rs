@@ -535,13 +535,15 @@ impl<'a> Emitter<'a> {
         Position { x, y, z, r }
     }
 
-    /// Straight from vertex to vertex.
-    fn pass(&mut self, chain: &[[i64; 3]]) {
-        for vertex in chain {
-            self.linear_record(*vertex);
+    /// Block by block, the first one to where the pass starts.
+    fn pass(&mut self, chain: &[super::pass::Step]) {
+        for block in chain {
+            let [x, y, z] = block.to;
+            let (r, feed) = (self.face_front(), self.linear_feed());
+            self.part((Position { x, y, z, r }, block.arc), feed);
         }
         let step = self.capabilities.grid.linear_step();
-        self.exact = chain.last().map(|v| Point3::from(v.map(|s| s as f64 * step)));
+        self.exact = chain.last().map(|block| Point3::from(block.to.map(|s| s as f64 * step)));
     }
 
     fn linear_record(&mut self, [x, y, z]: [i64; 3]) {

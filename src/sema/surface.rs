@@ -163,6 +163,10 @@ impl Analyser<'_> {
         let tool = self.ready("SURFAC", m);
         let spacing = self.spacing(m);
         let tool = tool.and_then(|tool| self.finisher(m, tool));
+        let arcs = m.word("interpolation") == Some("CIRCUL");
+        if arcs && !tool.is_none_or(|tool| self.in_planes(m, tool)) {
+            return;
+        }
         let Some(Entity::Net(net)) = m.entity("net") else { return };
         let net = *net;
         let (Some(tool), Some(spacing)) = (tool, spacing) else { return };
@@ -179,6 +183,7 @@ impl Analyser<'_> {
             clearance: self.state.clearance,
             stock_top: self.stock_top(),
             rough: false,
+            arcs,
         };
         self.step(StepKind::Surface(surface));
         self.moved();
@@ -205,6 +210,7 @@ impl Analyser<'_> {
             clearance: self.state.clearance,
             stock_top: self.stock_top(),
             rough: true,
+            arcs: false,
         };
         self.step(StepKind::Surface(surface));
         self.moved();
@@ -292,6 +298,26 @@ impl Analyser<'_> {
             Diagnostic::new(&planning::NO_BALL, m.word, message).label(declared, "the cutter").help(help),
         );
         None
+    }
+
+    /// Whether passes lie in planes, and the proof of arcs in them knows the cutter.
+    fn in_planes(&mut self, m: &Matched, tool: Handle<Tool>) -> bool {
+        let cutter = &self.program.tools[tool];
+        let (message, help) = if !matches!(along(m), Along::X | Along::Y) {
+            (
+                "passes along U and V and bent ones do not lie in planes: no arc follows them".to_owned(),
+                "write `X` or `Y` for passes in planes, or `LINEAR`",
+            )
+        } else if cutter.kind != CutterKind::Ball {
+            (
+                format!("arcs are proven for ball-end cutters, and {} is none", cutter.name),
+                "write `LINEAR`, or take a ball-end cutter",
+            )
+        } else {
+            return true;
+        };
+        self.report(Diagnostic::new(&planning::NO_ARCS, m.word, message).help(help));
+        false
     }
 
     /// The cutter, if it is a ball.

@@ -136,6 +136,14 @@ const SURFAC: &[Form] = &[form(
     &[
         ORDER,
         ALONG,
+        choices(
+            "interpolation",
+            &[
+                word("LINEAR", "straight lines"),
+                word("CIRCUL", "arcs in the control's XZ and YZ planes, for ball-end cutters along X and Y"),
+            ],
+            "LINEAR",
+        ),
         with(
             "cusp",
             &[word("CUSP", "largest height of the cusps between passes")],

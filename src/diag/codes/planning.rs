@@ -226,6 +226,13 @@ pub const NO_PASSES: Code = Code {
     page: include_str!("../../../docs/diagnostics/E0544.md"),
 };
 
+/// passes that no arcs can follow.
+pub const NO_ARCS: Code = Code {
+    id: "E0547",
+    title: "passes that no arcs can follow",
+    page: include_str!("../../../docs/diagnostics/E0547.md"),
+};
+
 /// All codes of this area.
 pub const ALL: &[&Code] = &[
     &NO_TOOL,
@@ -260,4 +267,5 @@ pub const ALL: &[&Code] = &[
     &OVERHANG,
     &CLEARANCE_TOO_LOW,
     &NO_PASSES,
+    &NO_ARCS,
 ];

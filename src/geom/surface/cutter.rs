@@ -225,6 +225,7 @@ impl Cutter {
     }
 }
 
+pub mod bent;
 mod way;
 
 pub use way::extremes;

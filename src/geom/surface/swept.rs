@@ -30,6 +30,18 @@ pub struct Extremes {
     pub foot: Foot,
 }
 
+impl Extremes {
+    /// Those of a way that goes on by another one.
+    #[must_use]
+    pub fn with(self, next: &Extremes) -> Extremes {
+        Extremes {
+            least: if next.least.distance < self.least.distance { next.least } else { self.least },
+            most: if next.most.distance > self.most.distance { next.most } else { self.most },
+            foot: next.foot,
+        }
+    }
+}
+
 /// What is asked about a way.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Question {

@@ -110,15 +110,19 @@ impl Chart {
         let s = &self.stations[i];
         s.at + normal(s.heading) * off
     }
+    /// How far off the track a band from `low` to `high` reaches at a station, less what chords to its neighbours cut off.
+    pub(super) fn gate(&self, i: usize, (low, high): (f64, f64)) -> (f64, f64) {
+        let (slack, middle) = (self.stations[i].slack, 0.5 * (low + high));
+        // Where the track is hollow a chord between gates' ends lies above it, where it is round below.
+        ((low + slack.1).min(middle), (high - slack.0).max(middle))
+    }
     /// The band from `low` to `high` along a piece.
     pub(super) fn ribbon(&self, piece: (usize, usize), low: f64, high: f64) -> Ribbon {
         let mut ribbon = Ribbon::default();
-        for s in &self.stations[piece.0..=piece.1] {
-            // Where the track is hollow a chord between gates' ends lies above it, where it is round below.
-            let (upper, lower) = (high - s.slack.0, low + s.slack.1);
-            let middle = 0.5 * (low + high);
-            ribbon.left.push(s.at + normal(s.heading) * upper.max(middle));
-            ribbon.right.push(s.at + normal(s.heading) * lower.min(middle));
+        for i in piece.0..=piece.1 {
+            let (lower, upper) = self.gate(i, (low, high));
+            ribbon.left.push(self.place(i, upper));
+            ribbon.right.push(self.place(i, lower));
         }
         ribbon
     }

@@ -6,6 +6,7 @@
 //! to space, set on the grid, and every link is checked by its true distance from the surface. What fails is tried
 //! again in a narrower ribbon, and links that still fail are cut in two.
 
+mod arcs;
 mod chart;
 mod vertex;
 
@@ -13,20 +14,32 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
+use super::circle;
 use super::contour::cannot_fit;
 use super::fit::ribbon;
 use crate::cl::{Cl, Pass, RecordKind};
 use crate::diag::Sink;
+use crate::diag::codes::lowering as codes;
 use crate::geom::surface::cutter::extremes;
 use crate::geom::surface::swept::Question;
 use crate::geom::surface::{Contact, Foot, Guide, Track};
 use crate::geom::{Point2, Point3};
-use crate::target::Capabilities;
+use crate::ir::at_origin;
+use crate::target::{Capabilities, Plane};
 use chart::Chart;
 use vertex::{Lattice, Vertex};
 
-/// A fitted pass: its vertices in steps of the grid.
-pub(super) type Chain = Vec<[i64; 3]>;
+/// A fitted pass: where it starts, and its blocks.
+pub(super) type Chain = Vec<Step>;
+
+/// A block of a pass.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Step {
+    /// Its end, in steps of the grid.
+    pub to: [i64; 3],
+    /// For an arc its plane, centre minus start along the plane's axes, in centre steps, and whether it is clockwise.
+    pub arc: Option<(Plane, [i64; 2], bool)>,
+}
 
 /// Parts of the band, on either side, that are left to the rounding of vertices: tried in this order, steps of the grid.
 const MARGINS: [f64; 6] = [0.02, 0.15, 0.3, 0.5, 0.9, 1.5];
@@ -54,6 +67,7 @@ pub(super) fn fit_all(cl: &Cl, capabilities: &Capabilities, sink: &mut Sink) -> 
             _ => None,
         })
         .collect();
+    as_lines(cl, capabilities, sink);
     let mut told = Vec::new();
     let mut out = Vec::with_capacity(fitted.len());
     for (record, result) in cl.records.iter().zip(fitted) {
@@ -71,6 +85,25 @@ pub(super) fn fit_all(cl: &Cl, capabilities: &Capabilities, sink: &mut Sink) -> 
         });
     }
     out
+}
+
+/// Tells of operations whose passes could be arcs, had the control any in their planes.
+fn as_lines(cl: &Cl, capabilities: &Capabilities, sink: &mut Sink) {
+    let mut told = Vec::new();
+    for record in &cl.records {
+        let RecordKind::Pass(pass) = &record.kind else { continue };
+        let span = cl.origins[record.origin].span;
+        let Some(plane) = no_arcs(pass, capabilities).filter(|_| pass.arcs && !told.contains(&span)) else {
+            continue;
+        };
+        told.push(span);
+        let message = format!(
+            "the passes are cut by lines: `{}` has no arcs in the {} plane",
+            capabilities.name,
+            circle::plane_name(plane)
+        );
+        sink.push(at_origin(&codes::ARC_AS_LINES, &cl.origins, record.origin, message));
+    }
 }
 
 fn no_pass(
@@ -122,7 +155,21 @@ fn fit(pass: &Pass, capabilities: &Capabilities) -> Result<Chain, Trouble> {
     let ends = [first, last].map(|c| task.vertex(&c, 0.5 * (task.low + task.high)));
     let [Some(head), Some(tail)] = ends else { return Err(Trouble { at: first.centre, lost: false }) };
     let chart = Chart::new(&track, 0.02 * (task.high - task.low), (first, last)).ok_or_else(|| lost(0.5))?;
-    task.best(&chart, head, tail)
+    let lines = task.best(&chart, head, tail);
+    if !pass.arcs || no_arcs(pass, capabilities).is_some() {
+        return lines;
+    }
+    match (arcs::chain(&task, &chart, (head, tail), capabilities), lines) {
+        (Some(arcs), Ok(lines)) => Ok(if arcs.len() < lines.len() { arcs } else { lines }),
+        (Some(arcs), Err(_)) => Ok(arcs),
+        (None, lines) => lines,
+    }
+}
+
+/// The plane in which a pass could be arcs, where the control has none in it.
+fn no_arcs(pass: &Pass, capabilities: &Capabilities) -> Option<Plane> {
+    let plane = arcs::plane_of(&pass.track.guide)?;
+    (!(capabilities.arcs && capabilities.planes.contains(&plane))).then_some(plane)
 }
 
 impl Task<'_> {
@@ -145,7 +192,8 @@ impl Task<'_> {
                 Err(at) => trouble = at,
             }
         }
-        best.map(|chain| chain.iter().map(|v| v.steps).collect()).ok_or(trouble)
+        let line = |v: &Vertex| Step { to: v.steps, arc: None };
+        best.map(|chain| chain.iter().map(line).collect()).ok_or(trouble)
     }
 
     /// The vertices of a path with the fewest links in the ribbon that `margin` leaves.

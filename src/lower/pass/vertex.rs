@@ -80,7 +80,7 @@ impl Lattice {
     }
 
     /// The direction in which vertices move off the track: in its plane for a plane pass, else along the normal.
-    fn sideways(&self, normal: Vec3) -> Vec3 {
+    pub(super) fn sideways(&self, normal: Vec3) -> Vec3 {
         let Some(axis) = self.axis else { return normal };
         let mut flat = normal;
         flat[1 - axis] = 0.0;

@@ -249,13 +249,19 @@ impl Planner<'_> {
         };
         let index = self.begin(operation, origin);
         for run in legs.split_inclusive(|leg| leg.last) {
-            self.run((run, band), tip, heights, origin);
+            self.run((run, band, surface.arcs), tip, heights, origin);
         }
         self.emit(RecordKind::EndOperation(index), origin);
     }
 
     /// One stay on the surface: onto it, along it, off it.
-    fn run(&mut self, (run, band): (&[Leg], Band), tip: f64, heights: Heights, origin: Handle<Origin>) {
+    fn run(
+        &mut self,
+        (run, band, arcs): (&[Leg], Band, bool),
+        tip: f64,
+        heights: Heights,
+        origin: Handle<Origin>,
+    ) {
         let (Some(first), Some(last)) = (run.first(), run.last()) else { return };
         let way_in = entry::onto(&first.track);
         let tips = |points: &[Point3]| -> Vec<Point3> {
@@ -270,7 +276,8 @@ impl Planner<'_> {
             self.linear(*p, origin);
         }
         for leg in run {
-            let pass = Pass { track: leg.track.clone(), tip, band, link: leg.link, room: leg.room.clone() };
+            let pass =
+                Pass { track: leg.track.clone(), tip, band, link: leg.link, arcs, room: leg.room.clone() };
             self.emit(RecordKind::Pass(Box::new(pass)), origin);
         }
         let mut way_out = tips(&entry::onto(&last.track.reversed()));

@@ -19,6 +19,8 @@ pub(super) struct Capsule {
     pub to: Point3,
     pub along: Vec3,
     pub length: f64,
+    /// By so much the ball is taken for smaller than it is, mm: no point of the axis is farther from the move.
+    off_axis: f64,
     /// Roughly how far the ball is off the surface, at equal distances along the move, mm.
     pub off: [f64; PLACES],
 }
@@ -38,11 +40,12 @@ impl Capsule {
         let way = swept.to - swept.from;
         let length = way.norm();
         let along = if length > 0.0 { way / length } else { Vec3::zeros() };
-        Capsule { from: swept.from, to: swept.to, along, length, off: [0.0; PLACES] }
+        Capsule { from: swept.from, to: swept.to, along, length, off_axis: swept.off, off: [0.0; PLACES] }
     }
 
     /// The height at which the ray along the normal enters the capsule.
     pub(super) fn height(&self, at: &Corner, radius: f64) -> f64 {
+        let radius = radius - self.off_axis;
         let (offset, a) = (at.p - self.from, self.along);
         if self.length > 0.0 {
             let (oa, na) = (offset.dot(&a), at.n.dot(&a));

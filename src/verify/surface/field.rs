@@ -164,8 +164,10 @@ impl<'a> Field<'a> {
         self.buckets.gather([0, 1].map(|i| (low[i] - around, high[i] + around)), near);
         // Of the moves in these squares, those that come so near in plan.
         let middle = Point2::new(0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1]));
-        let far = around + 0.5 * math::hypot(high[0] - low[0], high[1] - low[1]);
-        near.retain(|i| self.passes.get(*i as usize).is_some_and(|swept| beside(middle, swept) <= far * far));
+        let half = 0.5 * math::hypot(high[0] - low[0], high[1] - low[1]);
+        let far = around + half;
+        let close = |swept: &Swept| beside(middle, swept) <= far * far && abreast(middle, swept, half);
+        near.retain(|i| self.passes.get(*i as usize).is_some_and(close));
     }
 
     /// Whether the ball can be set on a point without gouging elsewhere.
@@ -185,4 +187,12 @@ impl<'a> Field<'a> {
 /// Square distance of a move from a point in plan.
 fn beside(p: Point2, swept: &Swept) -> f64 {
     (p - nearest_on_way(swept.from.xy(), swept.to.xy(), p)).norm_squared()
+}
+
+/// Whether a chord of a bent move passes a place of this half width, and not others of the same move. Straight moves do.
+fn abreast(p: Point2, swept: &Swept, half: f64) -> bool {
+    let way = (swept.to - swept.from).xy();
+    let length = way.norm();
+    let past = |q: Point3| (p - q.xy()).dot(&way) / length.max(1e-300);
+    swept.off <= 0.0 || past(swept.from) > -half - length && past(swept.to) < half + length
 }

@@ -46,11 +46,13 @@ struct Moved {
     rapid: bool,
 }
 
-/// A straight move of the ball's centre along the surface.
+/// A straight move of the ball's centre along the surface, or a chord of one that is bent.
 #[derive(Debug, Clone, Copy)]
 struct Swept {
     from: crate::geom::Point3,
     to: crate::geom::Point3,
+    /// No point of it is farther from the move, mm.
+    off: f64,
     line: u32,
     block: Option<usize>,
 }
@@ -96,7 +98,7 @@ fn proof(finish: &Finish, swept: &moves::Measured, cover: &cover::Cover) -> Surf
         leave: finish.leave,
         cusp_asked: finish.cusp,
         passes: swept.runs,
-        blocks: u32::try_from(swept.passes.len()).unwrap_or(u32::MAX),
+        blocks: swept.blocks,
         length: swept.length,
         into: at(&swept.into),
         out: at(&swept.out),

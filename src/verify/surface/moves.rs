@@ -6,10 +6,12 @@ use super::{Moved, Swept};
 use crate::cl::{Finish, Operation, RecordKind};
 use crate::diag::codes::verification as codes;
 use crate::geom::Point3;
+use crate::geom::surface::cutter::bent::{self, Way};
 use crate::geom::surface::cutter::extremes;
 use crate::geom::surface::swept::{Extremes, Question};
-use crate::readback::TracePath;
+use crate::readback::{Tilted, TracePath};
 use crate::verify::finding::{Finding, Text};
+use crate::verify::path::Primitive;
 use crate::verify::{ACCURACY, Case, Placed};
 
 /// A measured extreme.
@@ -35,6 +37,8 @@ impl Worst {
 #[derive(Debug)]
 pub(super) struct Measured {
     pub passes: Vec<Swept>,
+    /// Moves along passes.
+    pub blocks: u32,
     /// All moves with a known start.
     pub moves: Vec<Moved>,
     pub runs: u32,
@@ -53,6 +57,8 @@ const FINEST: f64 = 1e-7;
 /// Chords of arcs that are swept through the stock, mm.
 const SIMULATED: f64 = 2e-3;
 
+/// Chords of moves along passes leave them by no more than this share of what may be left.
+const SWEPT: f64 = 4e-3;
 /// Largest distances are told exactly where they are more than this share of `OUTTOL`; others are sampled.
 const OFF: f64 = 0.9;
 
@@ -71,6 +77,7 @@ pub(super) fn check(
         own.par_iter().enumerate().map(|(i, p)| one(case, operation, finish, p, along(i))).collect();
     let mut measured = Measured {
         passes: Vec::new(),
+        blocks: 0,
         moves: Vec::new(),
         runs: 0,
         length: 0.0,
@@ -87,8 +94,9 @@ pub(super) fn check(
         }
         if let Some((swept, out)) = found.pass {
             measured.out.take(out);
-            measured.length += (swept.to - swept.from).norm();
-            measured.passes.push(swept);
+            measured.length += swept.iter().map(|s| (s.to - s.from).norm()).sum::<f64>();
+            measured.passes.extend(swept);
+            measured.blocks += 1;
             let of = record_of(case, placed);
             measured.runs += u32::from(of != record && !is_link(case, of));
             record = of;
@@ -99,7 +107,8 @@ pub(super) fn check(
 
 struct One {
     into: Worst,
-    pass: Option<(Swept, Worst)>,
+    /// The ways of a move along a pass, and how far it is off the surface.
+    pass: Option<(Vec<Swept>, Worst)>,
     findings: Vec<Finding>,
     /// Ways of the ball's centre, where a clearing wants them.
     ways: Vec<(Point3, Point3)>,
@@ -144,27 +153,51 @@ fn one(case: &Case<'_>, operation: &Operation, finish: &Finish, placed: &Placed<
         }
         return result;
     }
-    for (from, to) in within(placed, FINEST).ways {
-        let (from, to) = (raised(finish, from), raised(finish, to));
-        let little = ball + OFF * operation.band.out;
-        let question = Question { enough: ball, little, accuracy: 0.5 * ACCURACY };
-        let found = extremes(&finish.tree, &finish.cutter, from, to, &question, None);
-        let worst = |value: f64, at: Point3| Worst { value, line: placed.line, block: placed.block, at };
-        let into = worst(ball - found.least.distance, found.least.at);
-        result.into.take(into);
-        if !(into.value + smoothing <= allowed + ACCURACY) {
-            result.findings.push(gouge(operation, placed, &into, allowed));
-        }
-        let out = worst(found.most.distance - ball, found.most.at);
-        result.findings.extend(excess(operation, placed, &found, &out, smoothing));
-        let swept = Swept { from, to, line: placed.line, block: placed.block };
-        result.pass = Some((swept, out));
+    let (found, swept) = followed(operation, finish, placed);
+    let worst = |value: f64, at: Point3| Worst { value, line: placed.line, block: placed.block, at };
+    let into = worst(ball - found.least.distance, found.least.at);
+    result.into.take(into);
+    if !(into.value + smoothing <= allowed + ACCURACY) {
+        result.findings.push(gouge(operation, placed, &into, allowed));
     }
-    if pass && cut.rapid {
+    let out = worst(found.most.distance - ball, found.most.at);
+    result.findings.extend(excess(operation, placed, &found, &out, smoothing));
+    result.pass = Some((swept, out));
+    if cut.rapid {
         let text = Text::default().words("a rapid along a surface");
         result.findings.push(Finding::new(&codes::NOT_FOLLOWED, placed.line, placed.block, text));
     }
     result
+}
+
+/// How far a move along a pass is off the surface, and its ways through the stock.
+fn followed(operation: &Operation, finish: &Finish, placed: &Placed<'_>) -> (Extremes, Vec<Swept>) {
+    let ball = finish.cutter.corner() + finish.leave;
+    let little = ball + OFF * operation.band.out;
+    let question = Question { enough: ball, little, accuracy: 0.5 * ACCURACY };
+    let (from, to) = (raised(finish, placed.cut.start()), raised(finish, placed.cut.end()));
+    let swept = |from, to, off| Swept { from, to, off, line: placed.line, block: placed.block };
+    let straight = || extremes(&finish.tree, &finish.cutter, from, to, &question, None);
+    if matches!(placed.cut.path, TracePath::Line { .. }) {
+        return (straight(), vec![swept(from, to, 0.0)]);
+    }
+    // What is left is told with the chords' distance from the move: a little of what may be left.
+    let fine = (SWEPT * finish.cusp.map_or(operation.band.out, |h| h.min(operation.band.out.max(0.1 * h))))
+        .max(FINEST);
+    let (mut found, mut ways): (Option<Extremes>, Vec<Swept>) = (None, Vec::new());
+    for course in Course::of(placed) {
+        let at = |x: f64| raised(finish, course.at(x));
+        let way = Way { at: &at, bend: course.bend() };
+        let own = bent::along(&finish.tree, &finish.cutter, &way, &question, None);
+        found = match (found, own) {
+            (Some(a), Some(b)) => Some(a.with(&b)),
+            (a, b) => a.or(b),
+        };
+        let parts = way.parts(fine);
+        let place = |k: u32| at(f64::from(k) / f64::from(parts));
+        ways.extend((0..parts).map(|k| swept(place(k), place(k + 1), way.sagitta(parts))));
+    }
+    (found.unwrap_or_else(straight), ways)
 }
 
 /// The cutter's reference point (a ball's centre) when its tip is at a point.
@@ -221,28 +254,61 @@ struct Chords {
 
 /// A move by chords that leave it by no more than `sagitta` mm, or by as many as are bearable.
 fn within(placed: &Placed<'_>, sagitta: f64) -> Chords {
-    const MOST: f64 = 1e6;
     let (start, end) = (placed.cut.start(), placed.cut.end());
     if matches!(placed.cut.path, TracePath::Line { .. }) {
         return Chords { ways: vec![(start, end)], off: 0.0 };
     }
-    let primitives = crate::verify::path::Primitive::of(&placed.cut.path);
-    let (a, b) = placed.cut.z;
-    let share = 1.0 / crate::math::count(primitives.len().max(1));
     let mut points = vec![start];
     let mut off: f64 = 0.0;
-    for (k, primitive) in primitives.iter().enumerate() {
-        // A curve leaves its chord over a parameter step h by no more than h²/8 of its second derivative; heights are linear.
-        let bend = primitive.bounds()[1];
-        let own = (bend / (8.0 * sagitta)).sqrt().ceil().clamp(1.0, MOST) as u32;
-        off = off.max(bend / (8.0 * f64::from(own) * f64::from(own)));
-        for i in 1..=own {
-            let f = f64::from(i) / f64::from(own);
-            let p = primitive.at(f).p;
-            points.push(Point3::new(p.x, p.y, a + (b - a) * share * (crate::math::count(k) + f)));
-        }
+    for course in Course::of(placed) {
+        let way = Way { at: &|x| course.at(x), bend: course.bend() };
+        let parts = way.parts(sagitta);
+        off = off.max(way.sagitta(parts));
+        points.extend((1..=parts).map(|k| (way.at)(f64::from(k) / f64::from(parts))));
     }
     Chords { ways: points.windows(2).map(|w| (w[0], w[1])).collect(), off }
+}
+
+/// A smooth part of a bent move of the tip, over 0..=1.
+enum Course<'a> {
+    /// An arc about an axis other than Z.
+    Tilted(&'a Tilted),
+    /// A curve as seen along Z, and heights that are linear along it.
+    Flat(Primitive, (f64, f64)),
+}
+
+impl Course<'_> {
+    fn of<'a>(placed: &Placed<'a>) -> Vec<Course<'a>> {
+        if let TracePath::Tilted(arc) = &placed.cut.path {
+            return vec![Course::Tilted(arc)];
+        }
+        let primitives = Primitive::of(&placed.cut.path);
+        let (a, b) = placed.cut.z;
+        let share = 1.0 / crate::math::count(primitives.len().max(1));
+        let height = |k: usize| a + (b - a) * share * crate::math::count(k);
+        primitives.into_iter().enumerate().map(|(k, p)| Course::Flat(p, (height(k), height(k + 1)))).collect()
+    }
+
+    fn at(&self, x: f64) -> Point3 {
+        match self {
+            Course::Tilted(arc) => arc.at(x),
+            Course::Flat(primitive, (low, high)) => {
+                let p = primitive.at(x).p;
+                Point3::new(p.x, p.y, low + (high - low) * x)
+            }
+        }
+    }
+
+    /// Bound of the second derivative, mm.
+    fn bend(&self) -> f64 {
+        match self {
+            Course::Tilted(arc) => {
+                let ((r0, r1), sweep) = (arc.radii(), arc.sweep.abs());
+                r0.max(r1) * sweep * sweep + 2.0 * (r1 - r0).abs() * sweep
+            }
+            Course::Flat(primitive, _) => primitive.bounds()[1],
+        }
+    }
 }
 
 fn gouge(operation: &Operation, placed: &Placed<'_>, into: &Worst, allowed: f64) -> Finding {

@@ -49,6 +49,7 @@ impl Sweep {
             ways.into_iter().map(move |(from, to)| Swept {
                 from: raised(finish, from),
                 to: raised(finish, to),
+                off: 0.0,
                 line,
                 block: None,
             })

@@ -296,7 +296,7 @@ impl<'a> Field<'a> {
         let left = |share: f64| {
             let rest =
                 cutter.drop(&self.finish.tree, at.p.x + share * beside.x, at.p.y + share * beside.y, None)?;
-            let stands = Swept { from: rest.centre, to: rest.centre, line: 0, block: None };
+            let stands = Swept { from: rest.centre, to: rest.centre, off: 0.0, line: 0, block: None };
             Some(self.height((&self.finish.cutter, 0.0), &stands, at, self.finish.leave))
         };
         SHARES.into_iter().filter_map(left).fold(f64::INFINITY, f64::min)

@@ -72,6 +72,42 @@ fn passes_that_bend_are_shorter_than_straight_ones() {
     assert!(iso.0 < 2 * u.0.max(v.0), "{iso:?} {u:?} {v:?}");
 }
 
+#[test]
+fn passes_in_planes_take_fewer_arcs_than_lines() {
+    for along in ["X", "Y"] {
+        let [straight, arcs] =
+            ["", ", CIRCUL"].map(|kind| proof(&build(&format!("ZIGZAG, {along}{kind}, CUSP, 0.02"))));
+        assert!(2 * arcs.blocks < straight.blocks, "{along}: {} {}", arcs.blocks, straight.blocks);
+        assert!(arcs.into.value <= 1e-6 && arcs.out.value <= 0.01 + 1e-6, "{along}: {arcs:?}");
+        assert!(arcs.left.value <= arcs.left_bound && arcs.left_bound < 0.033, "{along}: {arcs:?}");
+        assert!((arcs.length - straight.length).abs() < 0.01 * straight.length, "{along}: {arcs:?}");
+    }
+}
+
+#[test]
+fn an_arc_that_ends_too_deep_or_too_high_is_found() {
+    let build = build("ZIGZAG, X, CIRCUL, CUSP, 0.02");
+    let cl = build.cl.as_ref().expect("CL");
+    let arcs = |target: &mut TargetProgram, n: usize, steps: i64| {
+        let ends = target.blocks.iter_mut().filter_map(|block| match &mut block.kind {
+            BlockKind::Motion(Motion::Arc { to, centre, .. }) => Some((to, centre)),
+            _ => None,
+        });
+        // The end and, so that the radii stay the same, the centre by half of it: the arc is another one.
+        let (to, centre) = { ends }.nth(n).expect("an arc");
+        to.z += steps;
+        centre[0] += steps / 2;
+    };
+    for n in [3, 20, 41] {
+        for (steps, code) in [(-60, "E0820"), (60, "E0821")] {
+            let mut target = build.outputs[0].target.clone().expect("a target");
+            arcs(&mut target, n, steps);
+            let found = refused(cl, &target);
+            assert!(found.contains(&code) || found.contains(&"E0802"), "{n} {steps}: {found:?}");
+        }
+    }
+}
+
 /// The program with another net in place of its own.
 fn with_net(operation: &str, net: &str) -> Build {
     let text = program(operation);
@@ -165,11 +201,16 @@ fn bent(build: &Build, moved: &[(usize, i64)]) -> Vec<&'static str> {
     for (n, steps) in moved {
         *passes(cl, &mut target).nth(*n).expect("a vertex") += steps;
     }
+    refused(cl, &target)
+}
+
+/// Codes with which the proof of a program fails.
+fn refused(cl: &Cl, target: &TargetProgram) -> Vec<&'static str> {
     let dialect = load("linuxcnc", &MemoryFiles::default(), &mut SourceMap::default()).expect("a post");
-    let written = write(&dialect, &target, &cl.origins).expect("a text");
+    let written = write(&dialect, target, &cl.origins).expect("a text");
     let emitted = Emitted { text: written.text, lines: written.lines };
     let mut sink = Sink::default();
-    assert!(prove(cl, &target, emitted, dialect.control(), &mut sink).is_none());
+    assert!(prove(cl, target, emitted, dialect.control(), &mut sink).is_none());
     sink.items().iter().map(|d| d.code.id).collect()
 }
 
