@@ -157,18 +157,20 @@ impl Printer<'_> {
             let (a, b) = (number(a.to_degrees()), number(b.to_degrees()));
             self.line(format_args!("CUTTER/ {d}, {r}, {e}, {f}, {a}, {b}, {h}"));
         }
+        let words = if tool.words.is_empty() { String::new() } else { format!(", {}", tool.words) };
         match tool.number {
-            Some(n) => self.line(format_args!("LOADTL/ {n} $$ {}", tool.name)),
-            None => self.line(format_args!("LOADTL/ {}", tool.name)),
+            Some(n) => self.line(format_args!("LOADTL/ {n}{words} $$ {}", tool.name)),
+            None => self.line(format_args!("LOADTL/ {}{words}", tool.name)),
         }
     }
 
     fn spindle(&mut self, spindle: Spindle) {
         match spindle {
             Spindle::Off => self.line(format_args!("SPINDL/ OFF")),
-            Spindle::On { rpm, clockwise } => {
+            Spindle::On { rpm, clockwise, range } => {
                 let sense = if clockwise { "CLW" } else { "CCLW" };
-                self.line(format_args!("SPINDL/ {}, {sense}", number(rpm)));
+                let range = range.word().map_or_else(String::new, |word| format!(", RANGE, {word}"));
+                self.line(format_args!("SPINDL/ {}, {sense}{range}", number(rpm)));
             }
         }
     }

@@ -154,7 +154,7 @@ impl Reader<'_> {
 
     fn nci_tap(&self, feed: Feed) -> Result<CycleKind, String> {
         match (feed, self.state.spindle) {
-            (Feed::PerMinute(feed), Some(Spindle::On { rpm, clockwise })) if rpm > 0.0 => {
+            (Feed::PerMinute(feed), Some(Spindle::On { rpm, clockwise, .. })) if rpm > 0.0 => {
                 Ok(CycleKind::Tap { pitch: feed / rpm, left: !clockwise })
             }
             _ => Err("tapping has no pitch: it takes a feed and a turning spindle".to_owned()),

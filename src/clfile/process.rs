@@ -4,7 +4,7 @@ use super::grammar::{Arg, Statement};
 use super::reader::Reader;
 use crate::cl::RecordKind;
 use crate::diag::codes::foreign as codes;
-use crate::ir::{Coolant, Feed, Spindle};
+use crate::ir::{Coolant, Feed, Gear, Spindle};
 use crate::units::LengthUnit;
 
 /// Words of a feed per minute, with the length they count in mm; 0: the file's unit.
@@ -33,7 +33,7 @@ impl Reader<'_> {
             let number = super::scan::number(value.trim());
             match (name.to_uppercase().as_str(), number) {
                 ("SPINDL", Some(rpm)) if rpm > 0.0 => {
-                    self.state.spindle = Some(Spindle::On { rpm, clockwise: true });
+                    self.state.spindle = Some(Spindle::on(rpm, true));
                     self.state.last_speed = Some((rpm, true));
                 }
                 ("FEDRAT", Some(feed)) if feed > 0.0 => self.set_feed_number(feed),
@@ -131,7 +131,7 @@ impl Reader<'_> {
         let value = first_number_not_after(s, &["RANGE", "MAXRPM"]);
         let clockwise = !words.contains(&"CCLW");
         let speed = match value {
-            Some(v) => self.speed(v, &words),
+            Some(v) => self.speed(v, &words).map(|rpm| s.after("MAXRPM").map_or(rpm, |most| rpm.min(most))),
             None => self.state.last_speed.map(|(rpm, _)| rpm),
         };
         let Some(rpm) = speed.filter(|r| *r > 0.0 && r.is_finite()) else {
@@ -142,12 +142,15 @@ impl Reader<'_> {
         } else {
             clockwise
         };
+        if value.is_some() || words.contains(&"RANGE") {
+            self.state.range = gear_range(s);
+        }
         self.turn_at(rpm, clockwise);
     }
 
     /// The spindle is to turn so from the next move on.
     pub(super) fn turn_at(&mut self, rpm: f64, clockwise: bool) {
-        let on = Some(Spindle::On { rpm, clockwise });
+        let on = Some(Spindle::On { rpm, clockwise, range: self.state.range });
         self.state.last_speed = Some((rpm, clockwise));
         self.state.spindle_recorded &= self.state.spindle == on;
         self.state.spindle = on;
@@ -280,6 +283,14 @@ impl Reader<'_> {
 }
 
 /// The first number that does not belong to one of these words.
+/// `RANGE, 2`, `RANGE, LOW`, or the word alone.
+fn gear_range(s: &Statement) -> Gear {
+    const NAMED: [(&str, Gear); 3] = [("LOW", Gear::Low), ("MEDIUM", Gear::Medium), ("HIGH", Gear::High)];
+    let number = s.after("RANGE").filter(|n| n.fract() == 0.0 && (0.0..=9999.0).contains(n));
+    let named = || NAMED.iter().find(|(word, _)| s.has(word)).map_or(Gear::Any, |(_, gear)| *gear);
+    number.map_or_else(named, |n| Gear::Number(n as u16))
+}
+
 fn first_number_not_after(s: &Statement, words: &[&str]) -> Option<f64> {
     let mut skip = false;
     for arg in &s.args {

@@ -34,6 +34,8 @@ pub(super) struct State {
     pub spindle_due: bool,
     /// As last switched in the CL data.
     pub coolant: Option<Coolant>,
+    /// Gear range of the spindle.
+    pub range: crate::ir::Gear,
     /// Speed for `SPINDL/ ON`.
     pub last_speed: Option<(f64, bool)>,
     pub band: Band,
@@ -81,6 +83,7 @@ impl State {
             spindle_recorded: false,
             spindle_due: false,
             coolant: None,
+            range: crate::ir::Gear::Any,
             last_speed: None,
             band: Band { into: BAND, out: BAND },
             tool: Data::default(),

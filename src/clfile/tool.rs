@@ -1,10 +1,10 @@
 //! Tools and operations.
 
-use super::grammar::Statement;
+use super::grammar::{Arg, Statement};
 use super::reader::Reader;
 use crate::cl::{Guard, Operation, RecordKind};
 use crate::diag::codes::foreign as codes;
-use crate::ir::{CutterKind, Tool};
+use crate::ir::{CutterKind, Gear, Tool};
 use crate::math;
 use crate::source::Span;
 
@@ -25,6 +25,8 @@ pub(super) struct Data {
 #[derive(Debug, Clone)]
 pub(super) struct Load {
     number: Option<u32>,
+    /// Its further words.
+    words: String,
     span: Span,
 }
 
@@ -37,6 +39,21 @@ const CONE: f64 = 0.01;
 const STRAIGHT: f64 = 180.0;
 /// Tools that do not turn.
 const NOT_MILLING: &[&str] = &["TURN", "LATHE", "THREAD", "GROOVE", "WEDM", "LASER", "PUNCH"];
+
+/// What a tool change says besides the tool's number and the speed, which has a record of its own.
+fn further_words(s: &Statement) -> String {
+    let mut said: Vec<String> = Vec::new();
+    let mut args = s.args.iter().skip_while(|arg| !matches!(arg, Arg::Number(_))).skip(1).peekable();
+    while let Some(arg) = args.next() {
+        match arg {
+            Arg::Word(word) if word == "SPINDL" => _ = args.next_if(|next| matches!(next, Arg::Number(_))),
+            Arg::Word(word) if word.bytes().all(|b| b.is_ascii_alphanumeric()) => said.push(word.clone()),
+            Arg::Number(value) if value.is_finite() => said.push(crate::cl::print::number(*value)),
+            _ => {}
+        }
+    }
+    said.join(", ")
+}
 
 /// Whether the bottom is a cone up to the tool's axis: the numbers of `CUTTER/`, angles in radians.
 fn is_cone([d, r, e, f, a, b, _]: [f64; 7]) -> bool {
@@ -116,7 +133,7 @@ impl Reader<'_> {
         let same = self.state.tool.name.as_deref() == Some(tool) || self.named_behind(tool);
         if !same {
             self.state.tool = Data { name: Some(tool.to_owned()), ..Data::default() };
-            self.state.load = Some(Load { number: None, span: self.span });
+            self.state.load = Some(Load { number: None, words: String::new(), span: self.span });
         }
     }
 
@@ -162,12 +179,16 @@ impl Reader<'_> {
             }
         }
         self.load(number);
+        if let Some(load) = self.state.load.as_mut().filter(|_| number.is_some()) {
+            load.words = further_words(s);
+        }
         if number.is_none()
             && let Some(name) = s.words().find(|w| *w != "TOOL")
         {
             self.state.tool.name = Some(name.to_owned());
         }
         if let Some(rpm) = s.after("SPINDL").filter(|rpm| *rpm > 0.0 && rpm.is_finite()) {
+            self.state.range = Gear::Any;
             self.turn_at(rpm, true);
         }
     }
@@ -186,7 +207,7 @@ impl Reader<'_> {
             self.state.tool.name = None;
         }
         self.leave_cycle();
-        self.state.load = Some(Load { number, span: self.span });
+        self.state.load = Some(Load { number, words: String::new(), span: self.span });
     }
 
     /// The tool change that waits is due.
@@ -222,6 +243,7 @@ impl Reader<'_> {
                 kind,
                 corner: r,
                 profile: [e, f, a, b, h],
+                words: load.words,
                 ..Tool::flat(name, d, load.number, origin)
             }),
         };

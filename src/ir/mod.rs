@@ -152,6 +152,8 @@ pub struct Tool {
     pub stick_out: Option<f64>,
     /// Tool material as written.
     pub material: Option<String>,
+    /// Minor words of its change in a CL file, behind its number: `ADJUST, 4, LENGTH, 120`.
+    pub words: String,
     /// Where it was declared.
     pub origin: Handle<Origin>,
 }
@@ -193,6 +195,7 @@ impl Tool {
             length: None,
             stick_out: None,
             material: None,
+            words: String::new(),
             origin,
         }
     }
@@ -314,7 +317,47 @@ pub enum Spindle {
         rpm: f64,
         /// Clockwise (M3).
         clockwise: bool,
+        /// Gear range.
+        range: Gear,
     },
+}
+
+impl Spindle {
+    /// On, in any gear.
+    #[must_use]
+    pub const fn on(rpm: f64, clockwise: bool) -> Spindle {
+        Spindle::On { rpm, clockwise, range: Gear::Any }
+    }
+}
+
+/// Gear range of a spindle, as CL files name it (`RANGE, 2`).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Gear {
+    /// None is asked for.
+    #[default]
+    Any,
+    /// LOW.
+    Low,
+    /// MEDIUM.
+    Medium,
+    /// HIGH.
+    High,
+    /// By its number.
+    Number(u16),
+}
+
+impl Gear {
+    /// Its word in CL text; none for [`Gear::Any`].
+    #[must_use]
+    pub fn word(self) -> Option<String> {
+        match self {
+            Gear::Any => None,
+            Gear::Low => Some("LOW".to_owned()),
+            Gear::Medium => Some("MEDIUM".to_owned()),
+            Gear::High => Some("HIGH".to_owned()),
+            Gear::Number(n) => Some(n.to_string()),
+        }
+    }
 }
 
 /// Feed command.

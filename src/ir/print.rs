@@ -248,7 +248,7 @@ fn step_text(kind: &StepKind) -> String {
         StepKind::EndCycle => "cycle off".into(),
         StepKind::LoadTool(tool) => format!("load tool {tool:?}"),
         StepKind::Spindle(Spindle::Off) => "spindle off".into(),
-        StepKind::Spindle(Spindle::On { rpm, clockwise }) => {
+        StepKind::Spindle(Spindle::On { rpm, clockwise, .. }) => {
             format!("spindle {} rpm {}", num(*rpm), if *clockwise { "clw" } else { "cclw" })
         }
         StepKind::Feed(Feed::PerMinute(f)) => format!("feed {} mm/min", num(*f)),

@@ -217,7 +217,7 @@ impl Planner<'_> {
     /// Speed in rev/min and whether clockwise.
     fn need_spindle(&mut self, what: &str, origin: Handle<Origin>) -> Option<(f64, bool)> {
         match self.state.spindle {
-            Spindle::On { rpm, clockwise } => Some((rpm, clockwise)),
+            Spindle::On { rpm, clockwise, .. } => Some((rpm, clockwise)),
             Spindle::Off => {
                 let message = format!("{what} cuts, but the spindle is off");
                 let diagnostic = Diagnostic::new(&SPINDLE_OFF, self.span(origin), message)

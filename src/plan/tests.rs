@@ -61,7 +61,7 @@ impl Bench {
         let tool = bench.tool;
         bench
             .add(StepKind::LoadTool(tool))
-            .add(StepKind::Spindle(Spindle::On { rpm: 1200.0, clockwise: true }))
+            .add(StepKind::Spindle(Spindle::on(1200.0, true)))
             .add(StepKind::Feed(Feed::PerMinute(300.0)));
         bench
     }
@@ -143,7 +143,7 @@ fn conventional_and_a_counter_clockwise_spindle_each_turn_the_path_round() {
         (Cut::Conventional, false, Side::Right),
     ] {
         let mut bench = Bench::ready(paper_cam(false), 16.0);
-        bench.add(StepKind::Spindle(Spindle::On { rpm: 900.0, clockwise }));
+        bench.add(StepKind::Spindle(Spindle::on(900.0, clockwise)));
         bench.add(StepKind::Profile(Profile { cut, ..bench.profile(Flank::Inner) }));
         let cl = bench.plan().0.expect("planned");
         assert_eq!(contours(&cl)[0].part, part);

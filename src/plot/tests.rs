@@ -80,7 +80,7 @@ fn program(interpolation: Interpolation) -> Program {
     let cut = Cut::Climb;
     let kinds = [
         StepKind::LoadTool(tool),
-        StepKind::Spindle(Spindle::On { rpm: 1200.0, clockwise: true }),
+        StepKind::Spindle(Spindle::on(1200.0, true)),
         StepKind::Feed(Feed::PerMinute(300.0)),
         StepKind::RoughCam(RoughCam {
             name: None,

@@ -95,6 +95,7 @@ pub(super) struct ToolContext {
     taper: String,
     height: String,
     text: String,
+    words: String,
 }
 
 #[derive(Serialize)]
@@ -196,7 +197,8 @@ impl<'a> Events<'a> {
         };
         let tip = if kind == "drill" && tip > 0.0 { math::PI - 2.0 * tip } else { tip };
         let (tip, taper, height) = (degrees(tip), degrees(taper), length(height));
-        ToolContext { number, name, kind, diameter, corner, cutter, tip, taper, height, text }
+        let words = tool.words.clone();
+        ToolContext { number, name, kind, diameter, corner, cutter, tip, taper, height, text, words }
     }
 
     fn safe_start(&self) -> String {
@@ -225,7 +227,7 @@ impl<'a> Events<'a> {
             .take_while(|b| !matches!(b.kind, BlockKind::ToolChange(_) | BlockKind::Motion(_)))
             .find_map(|b| if let BlockKind::Spindle(spindle) = b.kind { Some(spindle) } else { None });
         match found {
-            Some(Spindle::On { rpm, clockwise }) => {
+            Some(Spindle::On { rpm, clockwise, .. }) => {
                 let code = self.spindle_code(clockwise).to_owned();
                 SpindleContext { rpm: number::steps(rpm, 0).unwrap_or(0), code }
             }

@@ -269,7 +269,14 @@ impl<'a> Events<'a> {
         self.spindle_on = spindle != Spindle::Off;
         match spindle {
             Spindle::Off => self.writer.text_line(&self.writer.dialect.spec.spindle.off, true),
-            Spindle::On { rpm, clockwise } => self.turn_spindle(rpm, self.spindle_code(clockwise)),
+            Spindle::On { rpm, clockwise, range } => {
+                let before = &self.writer.dialect.spec.spindle.range;
+                let mut code = self.spindle_code(clockwise).to_owned();
+                if let Some(gear) = range.word().filter(|_| !before.is_empty()) {
+                    code = code + before + &gear;
+                }
+                self.turn_spindle(rpm, &code);
+            }
         }
     }
 

@@ -299,6 +299,11 @@ const SPINDLE: &[Key] = &[
         Shape::TextList,
         "the same, where the tool change has said the speed already; empty: as `on`",
     ),
+    key(
+        "range",
+        Shape::Text,
+        "what stands behind the code before a gear range, a number or LOW, MEDIUM, HIGH; empty: none is said",
+    ),
     key("off", Shape::Text, "off"),
 ];
 const COOLANT: &[Key] = &[

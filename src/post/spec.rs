@@ -378,6 +378,8 @@ pub struct Spindle {
     pub on: Vec<String>,
     #[serde(default)]
     pub after_tool_change: Vec<String>,
+    #[serde(default)]
+    pub range: String,
     pub off: String,
 }
 

@@ -61,7 +61,7 @@ impl Sheet {
         self.add(RecordKind::LoadTool(tool))
     }
     pub fn spindle(self, rpm: f64) -> Sheet {
-        self.add(RecordKind::Spindle(Spindle::On { rpm, clockwise: true }))
+        self.add(RecordKind::Spindle(Spindle::on(rpm, true)))
     }
     pub fn feed(self, feed: Feed) -> Sheet {
         self.add(RecordKind::Feed(feed))

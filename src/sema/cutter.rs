@@ -37,6 +37,7 @@ impl Analyser<'_> {
             length: m.number("length"),
             stick_out: m.number("stick"),
             material: m.text("material").map(str::to_owned),
+            words: String::new(),
             origin: self.origin(self.here),
         };
         if let Some(number) = tool.number {

@@ -270,7 +270,7 @@ impl Analyser<'_> {
             },
             None => {
                 let rpm = tidy(m.number("speed").unwrap_or(0.0) * 60.0);
-                Spindle::On { rpm, clockwise: m.word("sense") != Some("CCLW") }
+                Spindle::on(rpm, m.word("sense") != Some("CCLW"))
             }
         };
         if spindle != Spindle::Off {

@@ -61,7 +61,7 @@ fn line(out: &mut String, program: &TargetProgram, block: &Block) {
         BlockKind::End => "end".into(),
         BlockKind::ToolChange(tool) => format!("tool-change {tool}"),
         BlockKind::Spindle(Spindle::Off) => "spindle off".into(),
-        BlockKind::Spindle(Spindle::On { rpm, clockwise }) => {
+        BlockKind::Spindle(Spindle::On { rpm, clockwise, .. }) => {
             format!("spindle {rpm} {}", if *clockwise { "clockwise" } else { "counter-clockwise" })
         }
         BlockKind::Coolant(coolant) => format!("coolant {}", coolant_name(*coolant)),

@@ -213,7 +213,7 @@ fn per_minute(feed: Feed, spindle: f64) -> f64 {
 fn signed(spindle: Spindle) -> f64 {
     match spindle {
         Spindle::Off => 0.0,
-        Spindle::On { rpm, clockwise } => {
+        Spindle::On { rpm, clockwise, .. } => {
             if clockwise {
                 rpm
             } else {

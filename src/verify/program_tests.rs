@@ -76,7 +76,7 @@ pub(super) fn cl(interpolation: Interpolation, band: Band) -> Cl {
     };
     let kinds = [
         RecordKind::LoadTool(tool),
-        RecordKind::Spindle(Spindle::On { rpm: 1200.0, clockwise: true }),
+        RecordKind::Spindle(Spindle::on(1200.0, true)),
         RecordKind::Feed(Feed::PerMinute(300.0)),
         RecordKind::BeginOperation(0),
         RecordKind::Contour(Box::new(contour)),

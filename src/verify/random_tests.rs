@@ -56,7 +56,7 @@ fn cl(acts: &[Act], units: LengthUnit) -> Cl {
     let tool = cl.tools.push(Tool { flutes: Some(2), ..Tool::flat("T1", 10.0, Some(1), origin) });
     let mut kinds = vec![
         RecordKind::LoadTool(tool),
-        RecordKind::Spindle(Spindle::On { rpm: 1200.0, clockwise: true }),
+        RecordKind::Spindle(Spindle::on(1200.0, true)),
         RecordKind::Feed(Feed::PerMinute(300.0)),
         RecordKind::Rapid(Point3::new(0.0, 0.0, 30.0)),
     ];

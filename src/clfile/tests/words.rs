@@ -2,7 +2,7 @@
 
 use super::{framed, kinds, read, read_as};
 use crate::cl::{CycleKind, RecordKind, RetractTo};
-use crate::ir::{Feed, Spindle};
+use crate::ir::{Feed, Gear, Spindle};
 
 #[test]
 fn nothing_is_dropped_in_silence() {
@@ -89,10 +89,28 @@ fn feeds_and_speeds_in_either_order_and_in_their_own_units() {
             read(&framed(&format!("CUTTER/ 10\nLOADTL/ 2\n{record}\nRAPID\nGOTO/ 1, 1, 1\nGOTO/ 2, 1, 1")));
         cl.records.iter().rev().find_map(|r| if let RecordKind::Spindle(s) = r.kind { Some(s) } else { None })
     };
-    assert_eq!(speed("SPINDL/ RPM, 900, CCLW"), Some(Spindle::On { rpm: 900.0, clockwise: false }));
-    assert_eq!(speed("SPINDL/ 900, RPM"), Some(Spindle::On { rpm: 900.0, clockwise: true }));
+    assert_eq!(speed("SPINDL/ RPM, 900, CCLW"), Some(Spindle::on(900.0, false)));
+    assert_eq!(speed("SPINDL/ 900, RPM"), Some(Spindle::on(900.0, true)));
     let Some(Spindle::On { rpm, .. }) = speed("SPINDL/ 47.1238898, SMM, CLW") else { panic!("no speed") };
     assert!((rpm - 1500.0).abs() < 1e-3, "{rpm}");
+    assert_eq!(speed("SPINDL/ SMM, 300, MAXRPM, 6000"), Some(Spindle::on(6000.0, true)));
+    let geared = |rpm, range| Some(Spindle::On { rpm, clockwise: true, range });
+    assert_eq!(speed("SPINDL/ 800, RANGE, 2"), geared(800.0, Gear::Number(2)));
+    assert_eq!(speed("SPINDL/ 801, RANGE, LOW"), geared(801.0, Gear::Low));
+    assert_eq!(speed("SPINDL/ 803, HIGH"), geared(803.0, Gear::High));
+    assert_eq!(speed("SPINDL/ 803, HIGH\nSPINDL/ 700"), geared(700.0, Gear::Any));
+}
+
+#[test]
+fn what_a_tool_change_says_besides_is_kept_with_the_tool() {
+    let words = |record: &str| {
+        let (cl, _) = read(&framed(&format!("CUTTER/ 10\n{record}\nRAPID\nGOTO/ 1, 1, 1")));
+        cl.tools.iter().last().map(|(_, tool)| tool.words.clone()).unwrap_or_default()
+    };
+    assert_eq!(words("LOADTL/ 2, ADJUST, 2, LENGTH, 120.5"), "ADJUST, 2, LENGTH, 120.5");
+    assert_eq!(words("LOAD/ TOOL, 2, OSETNO, 2"), "OSETNO, 2");
+    assert_eq!(words("LOADTL/ 2, SPINDL, 70, MILL"), "MILL");
+    assert_eq!(words("LOADTL/ 2"), "");
 }
 
 #[test]

@@ -24,7 +24,7 @@ impl Draft {
         let tool = cl.tools.push(Tool::flat("T1", 16.0, None, origin));
         Draft { cl, origin }
             .add(RecordKind::LoadTool(tool))
-            .add(RecordKind::Spindle(Spindle::On { rpm: 1200.0, clockwise: true }))
+            .add(RecordKind::Spindle(Spindle::on(1200.0, true)))
             .add(RecordKind::Feed(Feed::PerMinute(300.0)))
     }
     pub fn add(mut self, kind: RecordKind) -> Draft {

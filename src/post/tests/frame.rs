@@ -2,7 +2,7 @@
 
 use super::build::{Sheet, builtin};
 use crate::cl::CycleKind;
-use crate::ir::{Coolant, Spindle};
+use crate::ir::{Coolant, Gear, Spindle};
 use crate::target::{BlockKind, Motion, Plane, Position, axes};
 use crate::units::LengthUnit;
 
@@ -12,7 +12,7 @@ fn tour(name: &str, unit: LengthUnit) -> String {
     let step = 10i64.pow(u32::from(sheet.program.capabilities.grid.linear_decimals));
     sheet = sheet
         .event(BlockKind::ToolChange(0))
-        .event(BlockKind::Spindle(Spindle::On { rpm: 1200.0, clockwise: true }))
+        .event(BlockKind::Spindle(Spindle::on(1200.0, true)))
         .event(BlockKind::Coolant(Coolant::Flood))
         .event(BlockKind::BeginOperation("FINISH".into()))
         .event(BlockKind::PathTolerance(Some(0.0025)))
@@ -29,8 +29,8 @@ fn tour(name: &str, unit: LengthUnit) -> String {
         .event(BlockKind::Coolant(Coolant::Off))
         .event(BlockKind::Spindle(Spindle::Off))
         .event(BlockKind::ToolChange(0))
-        .event(BlockKind::Spindle(Spindle::On { rpm: 900.5, clockwise: false }))
-        .event(BlockKind::Spindle(Spindle::On { rpm: 800.0, clockwise: false }))
+        .event(BlockKind::Spindle(Spindle::on(900.5, false)))
+        .event(BlockKind::Spindle(Spindle::On { rpm: 800.0, clockwise: false, range: Gear::Number(2) }))
         .rapid(0, 0, 5 * step, axes::X | axes::Y | axes::Z)
         .line_z(0)
         .event(BlockKind::Insert("M64".into()))
@@ -131,7 +131,7 @@ fn long_titles_are_wrapped_and_never_cut_inside_a_bracket() {
 
 #[test]
 fn a_spindle_speed_that_rounds_to_nothing_is_refused() {
-    let sheet = Sheet::at("fanuc", 0, 0).event(BlockKind::Spindle(Spindle::On { rpm: 0.2, clockwise: true }));
+    let sheet = Sheet::at("fanuc", 0, 0).event(BlockKind::Spindle(Spindle::on(0.2, true)));
     assert_eq!(sheet.codes(), ["E0712"]);
 }
 

@@ -295,7 +295,7 @@ fn tool_changes() {
     check(table, |name| {
         let sheet = Sheet::mm(name)
             .event(BlockKind::ToolChange(0))
-            .event(BlockKind::Spindle(Spindle::On { rpm: 1200.0, clockwise: true }))
+            .event(BlockKind::Spindle(Spindle::on(1200.0, true)))
             .rapid(0, 0, 5 * step(name), 7);
         plain(sheet.body(), name == "heidenhain")
     });
@@ -307,7 +307,7 @@ fn tools_by_name_and_speeds_that_change_alone() {
     let dialect = load_with("sinumerik", &set, &MemoryFiles::default(), &mut SourceMap::default()).unwrap();
     let sheet = Sheet::new(dialect, LengthUnit::Millimetre, None).event(BlockKind::ToolChange(0));
     assert_eq!(sheet.body()[2], "T=\"T1\" M6");
-    let on = |rpm| BlockKind::Spindle(Spindle::On { rpm, clockwise: true });
+    let on = |rpm| BlockKind::Spindle(Spindle::on(rpm, true));
     let sheet = home("heidenhain").event(BlockKind::ToolChange(0)).event(on(900.0)).event(on(950.0));
     let lines = plain(sheet.rest(), true);
     assert_eq!(lines[lines.len() - 4..], ["TOOL CALL 1 Z S900", "M3", "TOOL CALL S950", "M3"]);

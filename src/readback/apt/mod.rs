@@ -223,8 +223,14 @@ impl<'a> Reader<'a> {
             return;
         }
         let mut sense = 1.0;
-        for argument in arguments {
+        let mut rest = arguments.iter();
+        while let Some(argument) = rest.next() {
             match *argument {
+                // A gear changes neither speed nor sense.
+                "RANGE" => match rest.next() {
+                    Some(gear) if matches!(*gear, "LOW" | "MEDIUM" | "HIGH") || value(gear).is_some() => {}
+                    _ => out.fault("RANGE without a gear in SPINDL"),
+                },
                 "CLW" => sense = 1.0,
                 "CCLW" => sense = -1.0,
                 "RPM" => {}

@@ -27,7 +27,7 @@ pub(in super::super) const SPINDLE: Try = row(
     "spindle clockwise, then counter-clockwise",
     || {
         let first = Sheet::mm().line(10.0, 0.0, 5.0).add(RecordKind::Spindle(Spindle::Off));
-        let other = Spindle::On { rpm: 500.0, clockwise: false };
+        let other = Spindle::on(500.0, false);
         first.add(RecordKind::Spindle(other)).line(20.0, 0.0, 5.0)
     },
     spindle,
