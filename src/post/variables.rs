@@ -66,7 +66,11 @@ pub const VARIABLES: &[Variable] = &[
         "angle of the bottom against the level in degrees; of a drill, its point angle; 0 where that is not known",
     ),
     row(ToolChange, "tool.taper", "angle of the side against the axis, degrees"),
-    row(ToolChange, "tool.words", "what a CL file says of its change besides the number: `ADJUST, 4, LENGTH, 120`"),
+    row(
+        ToolChange,
+        "tool.words",
+        "what a CL file says of its change besides the number: `ADJUST, 4, LENGTH, 120`",
+    ),
     row(ToolChange, "tool.height", "height of the cutter in the program's unit, 0 where that is not known"),
     row(ToolChange, "tool.text", "number, name, kind and diameter in one line"),
     row(ToolChange, "first", "whether it is the first tool of the program"),

@@ -206,7 +206,10 @@ fn said(cl: &Cl) -> Vec<String> {
                     // Where a cone is centred follows from its angle.
                     profile[..2].fill(0.0);
                 }
-                format!("tool {:?} {:?} {} {} {profile:?} {}", t.number, t.kind, t.diameter, t.corner, t.words)
+                format!(
+                    "tool {:?} {:?} {} {} {profile:?} {}",
+                    t.number, t.kind, t.diameter, t.corner, t.words
+                )
             }
             RecordKind::BeginOperation(index) => format!("begin {}", cl.operations[*index as usize].name),
             // The feed of a tap follows from its pitch and is not read.

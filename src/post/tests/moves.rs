@@ -13,8 +13,7 @@ fn words_are_printed_when_their_printed_number_changes() {
 
 #[test]
 fn a_point_is_forced_on_fanuc_and_never_on_integers() {
-    let sheet =
-        Sheet::at("fanuc", 0, 0).event(BlockKind::Spindle(Spindle::on(1200.0, false)));
+    let sheet = Sheet::at("fanuc", 0, 0).event(BlockKind::Spindle(Spindle::on(1200.0, false)));
     assert_eq!(sheet.rest(), ["S1200 M4"]);
     assert_eq!(Sheet::at("linuxcnc", 0, 0).line(10_000, 5).rest(), ["G1 X1 Y0.0005 F300"]);
     assert_eq!(Sheet::at("grbl", 0, 0).line(1_000, 5).rest(), ["G1 X1 Y0.005 F300"]);
