@@ -218,7 +218,7 @@ impl Analyser<'_> {
 
     /// `ROUGH/ net, LEVELS, STOCK, b, STEP, s …`.
     pub(super) fn rough_levels(&mut self, m: &Matched, name: Option<String>) {
-        let tool = self.ready("ROUGH", m).and_then(|tool| self.ball(m, tool));
+        let tool = self.ready("ROUGH", m).and_then(|tool| self.solid(m, tool));
         let (Some(tool), Some(Entity::Net(net)), Some(Entity::Stock(stock)), Some(step)) =
             (tool, m.entity("net"), m.entity("stock"), m.number("step"))
         else {
@@ -266,38 +266,44 @@ impl Analyser<'_> {
 
     /// The cutter, if it can finish a surface so.
     fn finisher(&mut self, m: &Matched, tool: Handle<Tool>) -> Option<Handle<Tool>> {
+        let tool = self.solid(m, tool)?;
         let cutter = &self.program.tools[tool];
-        let solid = cutter.solid();
-        if solid.is_some_and(|s| s.is_ball()) {
+        let bends = matches!(along(m), Along::IsoCusp | Along::Const);
+        if !bends || cutter.solid().is_some_and(|s| s.is_ball()) {
             return Some(tool);
         }
-        let bends = matches!(along(m), Along::IsoCusp | Along::Const);
-        let (message, help) = match solid {
-            Some(_) if !bends => return Some(tool),
-            Some(_) => (
-                format!("ISOCSP and CONST are for ball-end cutters, and {} is none", cutter.name),
-                "take passes along U, V, X or Y: they lie as close as `CUSP` asks for",
-            ),
-            None if cutter.kind == CutterKind::Taper => (
-                format!(
-                    "the shape of {} is not known: a tapered cutter has an angle and a level bottom",
-                    cutter.name
-                ),
+        let message = format!("ISOCSP and CONST are for ball-end cutters, and {} is none", cutter.name);
+        self.no_cutter(
+            m,
+            tool,
+            message,
+            "take passes along U, V, X or Y: they lie as close as `CUSP` asks for",
+        )
+    }
+
+    /// The cutter, if its shape is known.
+    fn solid(&mut self, m: &Matched, tool: Handle<Tool>) -> Option<Handle<Tool>> {
+        let cutter = &self.program.tools[tool];
+        if cutter.solid().is_some() {
+            return Some(tool);
+        }
+        let (message, help) = if cutter.kind == CutterKind::Taper {
+            let what = "a tapered cutter has an angle and a level bottom";
+            (
+                format!("the shape of {} is not known: {what}", cutter.name),
                 "give its angle: `CUTTER/ TAPER, 6, 1, ANGLE, 5`",
-            ),
-            None => (
+            )
+        } else {
+            let does = if m.form == "levels" { "rough" } else { "finish" };
+            (
                 format!(
-                    "{} does not finish surfaces: its shape is none that rests on its corner",
+                    "{} does not {does} surfaces: its shape is none that rests on its corner",
                     cutter.name
                 ),
                 "ball-end, flat, bull-nose and tapered cutters do: `CUTTER/ BULL, 10, 1`",
-            ),
+            )
         };
-        let declared = self.program.origins[cutter.origin].span;
-        self.report(
-            Diagnostic::new(&planning::NO_BALL, m.word, message).label(declared, "the cutter").help(help),
-        );
-        None
+        self.no_cutter(m, tool, message, help)
     }
 
     /// Whether passes lie in planes, and the proof of arcs in them knows the cutter.
@@ -320,16 +326,8 @@ impl Analyser<'_> {
         false
     }
 
-    /// The cutter, if it is a ball.
-    fn ball(&mut self, m: &Matched, tool: Handle<Tool>) -> Option<Handle<Tool>> {
-        let cutter = &self.program.tools[tool];
-        if cutter.kind == CutterKind::Ball {
-            return Some(tool);
-        }
-        let declared = self.program.origins[cutter.origin].span;
-        let message = format!("{} is no ball-end cutter: only those rough a surface so", cutter.name);
-        let help =
-            format!("declare one: `CUTTER/ BALL, {}`", self.show_length(cutter.diameter).replace(' ', ""));
+    fn no_cutter<T>(&mut self, m: &Matched, tool: Handle<Tool>, message: String, help: &str) -> Option<T> {
+        let declared = self.program.origins[self.program.tools[tool].origin].span;
         self.report(
             Diagnostic::new(&planning::NO_BALL, m.word, message).label(declared, "the cutter").help(help),
         );

@@ -18,7 +18,7 @@ const CUSP: Choices = with(
 /// `ROUGH/ N1, OFFSET, 0.5`.
 pub(super) const OFFSET: Form = form(
     "offset",
-    "one pass over a net, with the ball larger by what is left",
+    "one pass over a net, with the cutter larger by what is left",
     &[
         NET,
         Item::Word("how", &[word("OFFSET", "stock left on the surface")]),

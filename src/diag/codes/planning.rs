@@ -149,6 +149,13 @@ pub const NO_ROOM_FOR_HELIX: Code = Code {
     page: include_str!("../../../docs/diagnostics/N0524.md"),
 };
 
+/// the way down into material asks for teeth near the axis.
+pub const TEETH_AT_CENTRE: Code = Code {
+    id: "N0525",
+    title: "the way down into material asks for teeth near the axis",
+    page: include_str!("../../../docs/diagnostics/N0525.md"),
+};
+
 /// roughing passes are wider than the cutter.
 pub const ROUGH_TOO_WIDE: Code = Code {
     id: "E0545",
@@ -256,6 +263,7 @@ pub const ALL: &[&Code] = &[
     &NO_ROOM_FOR_LEAD,
     &ROUGH_MATERIAL,
     &NO_ROOM_FOR_HELIX,
+    &TEETH_AT_CENTRE,
     &ROUGH_TOO_WIDE,
     &NOTHING_TO_CLEAR,
     &ROUGH_TOO_DEEP,

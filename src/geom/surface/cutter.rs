@@ -218,6 +218,11 @@ impl Cutter {
         [round, if at_corner && d > 0.0 { 1.0 / d } else { 0.0 }]
     }
 
+    /// The tip of the cutter whose reference point is here.
+    #[must_use]
+    pub fn tip(&self, reference: Point3) -> Point3 {
+        Point3::new(reference.x, reference.y, reference.z - self.lift)
+    }
     /// The reference point of the cutter whose tip is here.
     #[must_use]
     pub fn reference(&self, tip: Point3) -> Point3 {
@@ -226,6 +231,7 @@ impl Cutter {
 }
 
 pub mod bent;
+mod section;
 mod way;
 
 pub use way::extremes;

@@ -33,6 +33,12 @@ pub(super) fn around(points: &[Point2]) -> f64 {
     points.iter().zip(points.iter().cycle().skip(1)).map(|(a, b)| (b - a).norm()).sum()
 }
 
+/// Area that a closed ring encloses, mm², positive where it runs counter-clockwise.
+pub(super) fn enclosed(points: &[Point2]) -> f64 {
+    let next = points.iter().cycle().skip(1);
+    points.iter().zip(next).map(|(a, b)| 0.5 * crate::geom::cross(a.coords, b.coords)).sum()
+}
+
 /// The point of a ring that is nearest to a place.
 pub(super) fn closest(points: &[Point2], to: Point2) -> usize {
     let off = |k: &usize| (points[*k] - to).norm_squared();

@@ -8,25 +8,31 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use crate::geom::surface::heights::Blank;
-use crate::geom::surface::{Contact, SurfaceTree, drop_ball};
+use crate::geom::surface::{Contact, Cutter, SurfaceTree};
 use crate::geom::{Point2, Vec2, nearest_on_way};
 use crate::math::{ceil_to_usize, count};
 
-/// A ball that is let down on the surface.
+/// A cutter that is let down on the surface.
 #[derive(Debug, Clone)]
 pub(super) struct Rest {
     pub tree: Arc<SurfaceTree>,
-    /// Radius of the ball with what it leaves and what is kept for the path's own deviations, mm.
-    pub ball: f64,
-    /// Radius of the cutter, mm.
+    pub cutter: Cutter,
+    /// The cutter with a hull of what it leaves and what is kept for the path's own deviations.
+    pub hull: Cutter,
+    /// Radius of the cutter's end, mm.
     pub radius: f64,
 }
 
 impl Rest {
-    /// Height of the tip at rest, mm; minus infinity where the ball touches nothing. `hint`: the contact at a place near by.
+    /// `leave`: the hull about the cutter, mm.
+    pub(super) fn new(tree: Arc<SurfaceTree>, cutter: Cutter, leave: f64) -> Rest {
+        Rest { tree, cutter, hull: cutter.grown(leave), radius: cutter.radius() }
+    }
+
+    /// Height of the tip at rest, mm; minus infinity where the cutter touches nothing. `hint`: the contact at a place near by.
     pub(super) fn tip(&self, p: Point2, hint: &mut Option<Contact>) -> f64 {
-        *hint = drop_ball(&self.tree, self.ball, p.x, p.y, hint.as_ref());
-        hint.map_or(f64::NEG_INFINITY, |c| c.centre.z - self.radius)
+        *hint = self.hull.drop(&self.tree, p.x, p.y, hint.as_ref());
+        hint.map_or(f64::NEG_INFINITY, |c| c.centre.z - self.cutter.lift())
     }
 }
 

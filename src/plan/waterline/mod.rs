@@ -2,8 +2,9 @@
 //!
 //! [`ground`] knows Z(x, y), how low the tip may come; [`slice`] makes of a plane the region {Z <= z} and the rings that clear
 //! it; [`path`] joins them. The region is planned with a margin beyond what is left. It covers what a grid cannot see: between
-//! nodes g apart no peak of Z is higher than g²/4R above them, because Z is an upper envelope of balls of radius R,
-//! and a peak of it is the top of one; it covers chords between points of the waterline and the tolerance of the arcs, too.
+//! nodes g apart no peak of Z is higher than g²/4R above them, because Z is an upper envelope of cutters turned upside
+//! down, and a peak of it is the top of one (R its rounding; a flat one as wide as that is seen by a node); it covers chords
+//! between points of the waterline and the tolerance of the arcs, too.
 
 mod arcs;
 mod chain;
@@ -71,7 +72,10 @@ impl Planner<'_> {
     pub(super) fn rough_net(&mut self, rough: &RoughNet, origin: Handle<Origin>) {
         let name = self.operation_name("ROUGH", rough.name.as_deref());
         let ready = self.ready(&name, Some(rough.tool), origin);
-        let radius = self.program.tools[rough.tool].diameter / 2.0;
+        // Tools of another shape were refused with the statement.
+        let tool = &self.program.tools[rough.tool];
+        let cutter = tool.solid().unwrap_or_else(|| Cutter::ball(tool.diameter / 2.0));
+        let radius = cutter.radius();
         let reach = radius * (1.0 + MARGIN.0) + rough.leave + 1.0;
         let tree = Arc::new(SurfaceTree::new(self.program.nets[rough.net].net.clone(), reach));
         let (blank, top) = blank(&self.program.stocks[rough.stock].shape);
@@ -80,16 +84,17 @@ impl Planner<'_> {
         let wide = self.wide(rough, radius, origin);
         let (true, true, true, Some(ready)) = (upright, clear, wide, ready) else { return };
         let wall_left = part_side(rough.cut, ready.clockwise) == Side::Left;
-        let Some(job) = job(rough, (Arc::clone(&tree), radius), (blank, top), wall_left) else {
+        let Some(job) = job(rough, (Arc::clone(&tree), cutter), (blank, top), wall_left) else {
             return self.no_stock(rough, top, None, origin);
         };
         if job.low >= top {
             return self.no_stock(rough, top, Some(job.low), origin);
         }
         let plan = clear_all(&job, rough.step);
-        let finish = Finish { tree, radius, cutter: Cutter::ball(radius), leave: rough.leave, cusp: None };
+        let finish = Finish { tree, radius, cutter, leave: rough.leave, cusp: None };
         self.emit_clearing(rough, (&name, ready), &job, (&plan, finish), origin);
         self.tell_entries(&name, &plan.tally, origin);
+        self.tell_teeth((&name, rough), (&cutter, &plan.tally), origin);
     }
 
     /// Rings must overlap.
@@ -224,6 +229,28 @@ impl Planner<'_> {
         self.report(diagnostic, origin);
     }
 
+    /// How near to the axis end teeth must reach, where the cutter is none that always has them there.
+    fn tell_teeth(
+        &mut self,
+        (name, rough): (&str, &RoughNet),
+        (cutter, tally): (&Cutter, &Tally),
+        origin: Handle<Origin>,
+    ) {
+        let Some(narrowest) = tally.narrowest.filter(|r| !cutter.is_ball() && *r < cutter.radius()) else {
+            return;
+        };
+        let tool = &self.program.tools[rough.tool];
+        let message = format!(
+            "{name}: the narrowest way down into material has a radius of {}: end teeth of {} must reach nearer to the axis",
+            self.show((narrowest * 1000.0).round() / 1000.0),
+            tool.name
+        );
+        let diagnostic = Diagnostic::new(&codes::TEETH_AT_CENTRE, self.span(origin), message)
+            .label(self.span(tool.origin), "the cutter")
+            .note("a cutter that cuts to its centre may go down so");
+        self.report(diagnostic, origin);
+    }
+
     /// Where there is no room for a helix, or none at all.
     fn tell_entries(&mut self, name: &str, tally: &Tally, origin: Handle<Origin>) {
         if tally.along_ring > 0 {
@@ -256,14 +283,15 @@ fn blank(shape: &StockShape) -> (Blank, f64) {
 
 fn job(
     rough: &RoughNet,
-    (tree, radius): (Arc<SurfaceTree>, f64),
+    (tree, cutter): (Arc<SurfaceTree>, Cutter),
     (blank, top): (Blank, f64),
     wall_left: bool,
 ) -> Option<Job> {
+    let radius = cutter.radius();
     let step = ground::spacing(radius, &blank, &tree);
     let margin = (MARGIN.0 * radius).max(MARGIN.1).max(step * step / radius);
     let safe = rough.clearance.min(top.max(tree.bounds().1.z + rough.leave) + ABOVE);
-    let rest = Rest { tree, ball: radius + rough.leave + margin, radius };
+    let rest = Rest::new(tree, cutter, rough.leave + margin);
     let stock = HeightField::new(&blank, top, CELLS * radius);
     let manner = Manner {
         width: APART * rough.width,

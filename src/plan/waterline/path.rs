@@ -1,9 +1,10 @@
 //! The way of the cutter through a level: entries, rings, and how one leads to the next.
 
 use super::arcs;
-use super::chain::{around, closest, length, pair, place_towards, sweep};
+use super::chain::{around, closest, enclosed, length, pair, place_towards, sweep};
 use super::ground::{Ground, Hints};
 use super::slice::{Pocket, Ring, Slice};
+use crate::geom::surface::Cutter;
 use crate::geom::surface::heights::HeightField;
 use crate::geom::{Point2, Point3};
 use crate::math::{TAU, ceil_to_usize, count, hypot, sin_cos};
@@ -50,6 +51,8 @@ pub(super) struct Tally {
     pub links: f64,
     /// Pockets entered down their own ring, for want of room for a helix.
     pub along_ring: u32,
+    /// How wide the narrowest way down is, as the radius of its path, mm.
+    pub narrowest: Option<f64>,
     /// Pockets left out because there is no room to go down, and the largest extent of one, mm.
     pub skipped: (u32, f64),
 }
@@ -77,8 +80,8 @@ const LARGER: f64 = 0.25;
 const ABOVE: f64 = 0.05;
 /// Helix radius: at most this share of the cutter's, of the room, and at least this share of the cutter's.
 const HELIX: (f64, f64, f64) = (0.5, 0.9, 0.15);
-/// Rings shorter than this share of the cutter's radius are no room to go down along.
-const SHORTEST: f64 = 0.2;
+/// Rings shorter than this share of the cutter's radius, or than so many times that of its flat, are no room to go down along.
+const SHORTEST: (f64, f64) = (0.2, 1.0);
 
 fn over(p: Point2, z: f64) -> Point3 {
     Point3::new(p.x, p.y, z)
@@ -254,10 +257,10 @@ impl<'a> Path<'a> {
 
     /// Height of the tip at which the cutter touches the stock.
     fn top_at(&self, p: Point2) -> Option<f64> {
-        let radius = self.ground.rest.radius;
         // A little larger: the control rounds.
-        let height = self.stock.clear_height(p, radius + LARGER * self.stock.cell());
-        height.is_finite().then_some(height - radius)
+        let cutter = self.cutter().grown(LARGER * self.stock.cell());
+        let height = self.stock.clear_height(p, &cutter);
+        height.is_finite().then_some(height - cutter.lift())
     }
 
     /// Comes down to the level at a ring or near it; where on the ring to begin. `None` where the pocket is left out.
@@ -321,7 +324,7 @@ impl<'a> Path<'a> {
             return Some(closest(&ring.points, self.at.map_or(centre, |p| p.xy())));
         }
         let length = around(&ring.points);
-        if length < SHORTEST * radius {
+        if length < (SHORTEST.0 * radius).max(SHORTEST.1 * self.cutter().flat()) {
             self.skip(&ring.points);
             return None;
         }
@@ -345,8 +348,8 @@ impl<'a> Path<'a> {
 
     /// Height from which material may stand around some places.
     fn top_around(&self, places: &[Point2], z: f64) -> f64 {
-        let radius = self.ground.rest.radius;
-        let tops = places.iter().map(|p| self.stock.likely_height(*p, radius) - radius + ABOVE);
+        let cutter = self.cutter();
+        let tops = places.iter().map(|p| self.stock.likely_height(*p, &cutter) - cutter.lift() + ABOVE);
         tops.fold(z, f64::max).min(self.manner.safe)
     }
 
@@ -363,6 +366,7 @@ impl<'a> Path<'a> {
             let turns = ceil_to_usize((top - z) / (TAU * radius * self.manner.ramp)).clamp(1, 10_000);
             let way = hypot(TAU * radius * count(turns), top - z);
             self.tally.entries += way;
+            self.narrow(radius);
             let more = u32::try_from(turns - 1).unwrap_or(0);
             self.arc(over(start, z), centre, !self.manner.wall_left, more);
         }
@@ -393,9 +397,15 @@ impl<'a> Path<'a> {
             }
         }
         self.tally.entries += gone;
+        // Of a circle half its radius, of a long ring half its width.
+        self.narrow(enclosed(&ring.points).abs() / length);
         self.run(&points, (top, z));
         self.tally.rings -= gone;
         k
+    }
+
+    fn narrow(&mut self, radius: f64) {
+        self.tally.narrowest = Some(self.tally.narrowest.map_or(radius, |r| r.min(radius)));
     }
 
     /// A closed ring, from one of its points round to it.
@@ -431,17 +441,21 @@ impl<'a> Path<'a> {
         self.tally.rings += whole;
     }
 
+    fn cutter(&self) -> Cutter {
+        self.ground.rest.cutter
+    }
+
     fn line(&mut self, to: Point3) {
-        let up = self.ground.rest.radius;
+        let cutter = self.cutter();
         if let Some(from) = self.at {
-            self.stock.cut(over(from.xy(), from.z + up), over(to.xy(), to.z + up), up);
+            self.stock.cut(cutter.reference(from), cutter.reference(to), &cutter);
         }
         self.moves.push(Move::Line(to));
         self.at = Some(to);
     }
 
     fn arc(&mut self, to: Point3, centre: Point2, ccw: bool, turns: u32) {
-        let up = self.ground.rest.radius;
+        let cutter = self.cutter();
         if let Some(from) = self.at {
             let (a, b) = (from.xy() - centre, to.xy() - centre);
             let sweep = sweep((a, b), ccw) + TAU * f64::from(turns);
@@ -451,10 +465,11 @@ impl<'a> Path<'a> {
                 let angle = crate::math::atan2(a.y, a.x) + if ccw { sweep } else { -sweep } * share;
                 let (s, c) = sin_cos(angle);
                 let r = a.norm();
-                Point3::new(centre.x + r * c, centre.y + r * s, from.z + (to.z - from.z) * share + up)
+                let z = from.z + (to.z - from.z) * share;
+                cutter.reference(Point3::new(centre.x + r * c, centre.y + r * s, z))
             };
             for k in 0..parts {
-                self.stock.cut(at(k), at(k + 1), up);
+                self.stock.cut(at(k), at(k + 1), &cutter);
             }
         }
         self.moves.push(Move::Arc { to, centre, ccw, turns });

@@ -4,6 +4,7 @@
 //! the cutter must stay over the net, its plan). They are cut from the innermost outwards: every ring has cleared material on
 //! its inside, and the waterline is cut last. Where the cutter comes from beside the blank, rings are cut off at its border.
 
+use super::chain::enclosed;
 use super::ground::{Grid, Ground, to_segment};
 use super::march::{Line, lines};
 use crate::geom::Point2;
@@ -147,27 +148,24 @@ impl Slice {
     }
 }
 
+/// Area inside closed walls, islands taken off, mm².
+fn whole(walls: &[Line]) -> f64 {
+    walls.iter().map(|w| enclosed(&w.points)).sum()
+}
+
 /// Area in which the tip may be: inside the walls where they are closed, else by nodes.
 fn area(ground: &Ground, walls: &[Line], nodes: usize) -> f64 {
     if !walls.is_empty() && walls.iter().all(|w| w.closed) && !ground.open {
-        return enclosed(walls);
+        return whole(walls);
     }
     let (low, high) = ground.blank.bounds();
     let inside =
         |w: &Line| w.closed && w.points.iter().all(|p| (0..2).all(|i| p[i] >= low[i] && p[i] <= high[i]));
-    let whole = enclosed(walls);
+    let whole = whole(walls);
     if whole > 0.0 && walls.iter().all(inside) {
         return whole;
     }
     count(nodes) * ground.grid.step * ground.grid.step
-}
-
-fn enclosed(walls: &[Line]) -> f64 {
-    let one = |line: &Line| {
-        let next = line.points.iter().cycle().skip(1);
-        line.points.iter().zip(next).map(|(a, b)| 0.5 * crate::geom::cross(a.coords, b.coords)).sum::<f64>()
-    };
-    walls.iter().map(one).sum()
 }
 
 /// Distance of every node from the walls, mm, negative where the value is positive. Each node takes the nearest piece of

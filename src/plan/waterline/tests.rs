@@ -1,6 +1,6 @@
 use super::*;
 use crate::geom::Point2;
-use crate::geom::surface::Net;
+use crate::geom::surface::{Cutter, Net};
 
 fn net(x: [f64; 4], y: [f64; 4], z: [[f64; 4]; 4]) -> Net {
     let poles: Vec<Point3> = (0..16).map(|k| Point3::new(x[k / 4], y[k % 4], z[k / 4][k % 4])).collect();
@@ -23,7 +23,7 @@ fn made(net: Net, leave: f64, beyond: f64) -> Ground {
     let (low, high) = tree.bounds();
     let out = crate::geom::Vec2::new(beyond, beyond);
     let blank = Blank::Block { low: low.xy() - out, high: high.xy() + out };
-    Ground::new(Rest { tree, ball: 5.0 + leave, radius: 5.0 }, blank, 0.5, 6.5)
+    Ground::new(Rest::new(tree, Cutter::ball(5.0), leave), blank, 0.5, 6.5)
 }
 
 #[test]

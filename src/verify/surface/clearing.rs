@@ -7,6 +7,7 @@ use super::Moved;
 use crate::cl::{Clearing, Finish, Operation};
 use crate::diag::codes::verification as codes;
 use crate::geom::Point3;
+use crate::geom::surface::Cutter;
 use crate::geom::surface::heights::HeightField;
 use crate::verify::ACCURACY;
 use crate::verify::certificate::{ClearedLevel, ClearingProof};
@@ -24,9 +25,9 @@ pub(super) fn check(
     moves: &[Moved],
     findings: &mut Vec<Finding>,
 ) -> ClearingProof {
-    let radius = finish.radius;
-    let section = section(radius, clearing.step);
-    let mut stock = HeightField::new(&clearing.blank, clearing.top, CELLS * radius);
+    let cutter = &finish.cutter;
+    let section = cutter.section(clearing.step);
+    let mut stock = HeightField::new(&clearing.blank, clearing.top, CELLS * cutter.radius());
     let mut proof = empty(clearing);
     let mut places: Vec<(f64, f64)> = Vec::new();
     for moved in moves {
@@ -36,9 +37,9 @@ pub(super) fn check(
                 if from.xy() == to.xy() && to.z >= from.z {
                     continue;
                 }
-                let depth = stock.depth(*from, *to, radius);
+                let depth = stock.depth(*from, *to, cutter);
                 if depth > ACCURACY {
-                    findings.push(through_stock(operation, moved, (*from, *to), depth));
+                    findings.push(through_stock((operation, cutter), moved, (*from, *to), depth));
                 }
                 continue;
             }
@@ -47,14 +48,14 @@ pub(super) fn check(
             let at = |k: usize| from + (to - from) * (crate::math::count(k) / crate::math::count(parts));
             let share = length / crate::math::count(parts);
             for k in 0..parts {
-                let volume = stock.cut(at(k), at(k + 1), radius);
+                let volume = stock.cut(at(k), at(k + 1), cutter);
                 proof.volume += volume;
                 if volume <= AIR.1 * section * share {
                     proof.air += share;
                 }
             }
             proof.cut += length;
-            places.push((0.5 * (from.z + to.z) - radius, length));
+            places.push((0.5 * (from.z + to.z) - cutter.lift(), length));
         }
     }
     proof.bound = proof.volume / section;
@@ -77,20 +78,18 @@ fn empty(clearing: &Clearing) -> ClearingProof {
     }
 }
 
-/// What a ball takes with one full cut of this depth, mm².
-fn section(radius: f64, depth: f64) -> f64 {
-    if depth >= radius {
-        return 0.5 * core::f64::consts::PI * radius * radius + 2.0 * radius * (depth - radius);
-    }
-    radius * radius * crate::math::acos(1.0 - depth / radius)
-        - (radius - depth) * (2.0 * radius * depth - depth * depth).sqrt()
-}
-
-fn through_stock(operation: &Operation, moved: &Moved, (from, to): (Point3, Point3), depth: f64) -> Finding {
+fn through_stock(
+    (operation, cutter): (&Operation, &Cutter),
+    moved: &Moved,
+    (from, to): (Point3, Point3),
+    depth: f64,
+) -> Finding {
+    let what = if cutter.is_ball() { "ball's centre" } else { "cutter's tip" };
+    let [from, to] = [from, to].map(|p| if cutter.is_ball() { p } else { cutter.tip(p) });
     let text = Text::default()
         .words("a rapid goes ")
         .length(depth)
-        .words(" into what may be left of the blank, with the ball's centre between ")
+        .words(format!(" into what may be left of the blank, with the {what} between "))
         .place(from)
         .words(" and ")
         .place(to)

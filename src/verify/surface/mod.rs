@@ -6,6 +6,8 @@
 mod buckets;
 mod capsule;
 mod clearing;
+#[cfg(test)]
+mod clearing_tests;
 mod cover;
 mod field;
 mod moves;

@@ -224,7 +224,10 @@ fn deepest(finish: &Finish, placed: &Placed<'_>, allowed: f64) -> (Worst, bool) 
             let value = ball + chords.off - found.least.distance;
             worst.take(Worst { value, line: placed.line, block: placed.block, at: found.least.at });
         }
-        if chords.off == 0.0 || worst.value <= ACCURACY.min(allowed + ACCURACY) {
+        let settled = worst.value <= ACCURACY.min(allowed + ACCURACY);
+        // What is certainly too deep is so by whatever chords.
+        let hopeless = worst.value > allowed + 100.0 * chords.off;
+        if chords.off == 0.0 || settled || hopeless {
             break;
         }
     }

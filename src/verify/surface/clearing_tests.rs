@@ -1,0 +1,96 @@
+//! Roughing in levels, from source to proof.
+
+use super::tests::refused;
+use crate::driver::{self, Build, Options};
+use crate::source::MemoryFiles;
+
+/// A net, roughed from a block.
+fn roughed(net: &str, block: &str, cutter: &str, options: &str) -> Build {
+    let mut files = MemoryFiles::default();
+    let text = format!(
+        "UNITS/ MM\nMACHIN/ LINUXCNC\nN1 = NET/ 4, 4, {net}\nB1 = STOCK/ BLOCK, {block}\n\
+         T1 = CUTTER/ {cutter}, NUMBER, 1\nLOADTL/ T1\nSPINDL/ 8000\nFEDRAT/ 800\nINTOL/ 0\nOUTTOL/ 0.01\nCLEARP/ 30\n\
+         R1 = ROUGH/ N1, LEVELS, STOCK, B1, {options}\nFINI\n"
+    );
+    files.0.insert("part.apt".to_owned(), text);
+    driver::build("part.apt", &files, &Options::default())
+}
+
+const CAVITY: &str = "(0, 0, 0), (0, 16, 0), (0, 32, 0), (0, 48, 0), $\n\
+    (20, 0, 0), (20, 16, -52), (20, 32, -46), (20, 48, 0), $\n\
+    (40, 0, 0), (40, 16, -44), (40, 32, -56), (40, 48, 0), $\n\
+    (60, 0, 0), (60, 16, 0), (60, 32, 0), (60, 48, 0)";
+const DOME: &str = "(0, 0, 0), (0, 20, 4), (0, 40, 4), (0, 60, 0), $\n\
+    (20, 0, 4), (20, 20, 16), (20, 40, 16), (20, 60, 4), $\n\
+    (40, 0, 4), (40, 20, 16), (40, 40, 16), (40, 60, 4), $\n\
+    (60, 0, 0), (60, 20, 4), (60, 40, 4), (60, 60, 0)";
+
+fn cleared(build: &Build) -> crate::verify::ClearingProof {
+    assert!(!build.has_errors(), "{:#?}", build.diagnostics);
+    let proven = build.outputs[0].proven.as_ref().expect("a proven program");
+    let operation = &proven.certificate().operations[0];
+    assert!(operation.into.expect("a depth").value <= 1e-6);
+    operation.clearing.clone().expect("a clearing")
+}
+
+#[test]
+fn a_cavity_is_cleared_in_levels_and_keeps_its_allowance() {
+    let proof =
+        cleared(&roughed(CAVITY, "(0, 0, -40), (60, 48, 0)", "BALL, 10", "STEP, 2, WIDTH, 3, LEAVE, 0.5"));
+    assert!(proof.left >= 0.5 - 1e-6 && proof.levels.len() == 14, "{proof:?}");
+    assert!(proof.bound > 2900.0 && proof.cut < 1.9 * proof.bound, "{proof:?}");
+    assert!(proof.air < 0.03 * proof.cut, "{proof:?}");
+}
+
+#[test]
+fn a_crown_is_entered_from_beside_its_block() {
+    for block in ["(0, 0, -5), (60, 60, 9)", "(-2, -2, -5), (62, 62, 12)"] {
+        let build = roughed(DOME, block, "BALL, 10", "STEP, 2, WIDTH, 3, LEAVE, 0.5");
+        let proof = cleared(&build);
+        assert!(proof.left >= 0.5 - 1e-6 && proof.cut < 2.2 * proof.bound, "{proof:?}");
+        assert!(proof.air < 0.05 * proof.cut, "{proof:?}");
+        assert!(!build.diagnostics.iter().any(|d| d.code.id == "N0524"), "{:#?}", build.diagnostics);
+    }
+}
+
+#[test]
+fn a_crown_in_a_large_block_is_entered_by_a_ramp() {
+    let proof =
+        cleared(&roughed(DOME, "(-20, -20, -5), (80, 80, 12)", "BALL, 10", "STEP, 3, LEAVE, 0.5, CONVEN"));
+    assert!(proof.left >= 0.5 - 1e-6 && proof.levels.len() > 3, "{proof:?}");
+}
+
+#[test]
+fn a_blank_below_the_surface_leaves_nothing_to_clear() {
+    let build = roughed(DOME, "(0, 0, -20), (60, 60, -5)", "BALL, 10", "STEP, 2");
+    assert!(build.diagnostics.iter().any(|d| d.code.id == "E0546"), "{:#?}", build.diagnostics);
+}
+
+const PIT: &str = "(0, 0, 0), (0, 8, 0), (0, 16, 0), (0, 24, 0), $\n\
+    (9, 0, 0), (9, 8, -26), (9, 16, -22), (9, 24, 0), $\n\
+    (18, 0, 0), (18, 8, -21), (18, 16, -27), (18, 24, 0), $\n\
+    (27, 0, 0), (27, 8, 0), (27, 16, 0), (27, 24, 0)";
+
+#[test]
+fn cutters_of_every_form_clear_levels_and_keep_the_allowance() {
+    for cutter in ["FLAT, 6", "BULL, 6, 1", "TAPER, 5, 1, ANGLE, 5"] {
+        let proof =
+            cleared(&roughed(PIT, "(0, 0, -16), (27, 24, 0)", cutter, "STEP, 5, WIDTH, 4, LEAVE, 0.5"));
+        // The plan's own margin is 0.03.
+        assert!((0.5 - 1e-6..0.54).contains(&proof.left), "{cutter}: {proof:?}");
+        assert!(proof.cut > 0.9 * proof.bound && proof.cut < 6.0 * proof.bound, "{cutter}: {proof:?}");
+        assert!(proof.air < 0.08 * proof.cut, "{cutter}: {proof:?}");
+    }
+}
+
+#[test]
+fn what_another_cutter_may_a_flat_one_may_not() {
+    // The path of a ball, driven by a flat cutter of the same diameter.
+    let build = roughed(PIT, "(0, 0, -16), (27, 24, 0)", "BALL, 6", "STEP, 9, WIDTH, 6, LEAVE, 0.5");
+    let (mut cl, target) =
+        (build.cl.clone().expect("CL"), build.outputs[0].target.clone().expect("a target"));
+    let finish = cl.operations[0].guard.surface.as_mut().expect("a surface");
+    finish.cutter = crate::geom::surface::Cutter::bull(3.0, 0.0);
+    let found = refused(&cl, &target);
+    assert!(!found.is_empty() && found.contains(&"E0820"), "{found:?}");
+}
