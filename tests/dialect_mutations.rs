@@ -92,8 +92,12 @@ fn outcome(post: &str) -> String {
     let mut all = String::new();
     for unit in ["MM", "INCH"] {
         let files = [("p.cls".to_owned(), program(unit)), ("m.post.toml".to_owned(), post.to_owned())];
-        let options =
-            Options { posts: vec!["m.post.toml".to_owned()], is_cl: true, only_nc: true, ..Options::default() };
+        let options = Options {
+            posts: vec!["m.post.toml".to_owned()],
+            is_cl: true,
+            only_nc: true,
+            ..Options::default()
+        };
         let build = driver::build("p.cls", &MemoryFiles(files.into()), &options);
         let proven = build.outputs.first().and_then(|o| o.proven.as_ref());
         let errors: BTreeSet<&str> =
