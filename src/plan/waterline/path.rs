@@ -6,7 +6,7 @@ use super::ground::{Ground, Hints};
 use super::slice::{Pocket, Ring, Slice};
 use crate::geom::surface::Cutter;
 use crate::geom::surface::heights::HeightField;
-use crate::geom::{Point2, Point3};
+use crate::geom::{Point2, Point3, Vec2};
 use crate::math::{TAU, ceil_to_usize, count, hypot, sin_cos};
 
 /// A move of the tip.
@@ -202,7 +202,7 @@ impl<'a> Path<'a> {
         let clear = |q: Point2| self.top_at(q).is_none_or(|top| top <= z - 1e-3);
         ASKEW.into_iter().find_map(|angle| {
             let (s, c) = sin_cos(angle);
-            let way = crate::geom::Vec2::new(c * out.x - s * out.y, s * out.x + c * out.y);
+            let way = Vec2::new(c * out.x - s * out.y, s * out.x + c * out.y);
             let places = (0..=MOST_STEPS).map(|k| p + way * (step * f64::from(k)));
             let end = places
                 .take_while(|q| self.ground.blank.distance(*q) <= self.manner.air + step)
@@ -320,8 +320,9 @@ impl<'a> Path<'a> {
         let (centre, room) = pocket.deepest;
         let helix = (share * room).min(most * radius);
         if helix >= least * radius && self.free((centre, centre), slice.z) {
-            self.helix(slice.z, centre, helix);
-            return Some(closest(&ring.points, self.at.map_or(centre, |p| p.xy())));
+            let start = closest(&ring.points, centre);
+            self.helix(slice.z, (centre, helix), ring.points[start]);
+            return Some(start);
         }
         let length = around(&ring.points);
         if length < (SHORTEST.0 * radius).max(SHORTEST.1 * self.cutter().flat()) {
@@ -353,23 +354,30 @@ impl<'a> Path<'a> {
         tops.fold(z, f64::max).min(self.manner.safe)
     }
 
-    fn helix(&mut self, z: f64, centre: Point2, radius: f64) {
+    /// Down by a helix that ends towards a place.
+    fn helix(&mut self, z: f64, (centre, radius): (Point2, f64), towards: Point2) {
         const PLACES: u32 = 8;
-        let place = |k: u32| {
-            let (s, c) = sin_cos(TAU * f64::from(k) / f64::from(PLACES));
-            Point2::new(centre.x + radius * c, centre.y + radius * s)
+        // An arc that is shorter than this share of a turn is made longer by so much.
+        const LEAST: f64 = 0.05;
+        let ccw = !self.manner.wall_left;
+        let end = place_towards(centre, towards, radius);
+        let back = |turns: f64| {
+            let (s, c) = sin_cos(if ccw { -TAU * turns } else { TAU * turns });
+            let arm = end - centre;
+            centre + Vec2::new(c * arm.x - s * arm.y, s * arm.x + c * arm.y)
         };
-        let top = self.top_around(&(0..PLACES).map(place).collect::<Vec<_>>(), z);
-        let start = self.at.map_or(place(0), |p| place_towards(centre, p.xy(), radius));
-        self.descend(start, top);
-        if top > z {
-            let turns = ceil_to_usize((top - z) / (TAU * radius * self.manner.ramp)).clamp(1, 10_000);
-            let way = hypot(TAU * radius * count(turns), top - z);
-            self.tally.entries += way;
-            self.narrow(radius);
-            let more = u32::try_from(turns - 1).unwrap_or(0);
-            self.arc(over(start, z), centre, !self.manner.wall_left, more);
+        let places: Vec<Point2> = (0..PLACES).map(|k| back(f64::from(k) / f64::from(PLACES))).collect();
+        let top = self.top_around(&places, z);
+        if top <= z {
+            return self.descend(end, z);
         }
+        let turns = ((top - z) / (TAU * radius * self.manner.ramp)).clamp(LEAST, 10_000.0);
+        let turns = if turns.fract() < LEAST { turns + LEAST } else { turns };
+        self.descend(back(turns.fract()), top);
+        self.tally.entries += hypot(TAU * radius * turns, top - z);
+        self.narrow(radius);
+        // At most 10 001.
+        self.arc(over(end, z), centre, ccw, turns.floor() as u32);
     }
 
     /// Down along a ring: to the end of the way that the slope asks for, round and round if need be. Where on the ring the
