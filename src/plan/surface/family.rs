@@ -57,7 +57,7 @@ const BEYOND: f64 = 0.005;
 /// micron.
 const INSET: f64 = 0.005;
 /// Passes that end and begin farther apart than so many radii are joined above the surface.
-const LINK: f64 = 6.0;
+pub(super) const LINK: f64 = 6.0;
 
 impl Family {
     /// The passes of an operation; those that bend as if they ran along u.
@@ -218,7 +218,6 @@ impl Family {
     fn resting(&self, from: Point2, to: Point2) -> f64 {
         const PART: f64 = 0.02;
         const MOST: f64 = 4096.0;
-        const HALVINGS: u32 = 16;
         let parts = ((to - from).norm() / (PART * self.ball)).ceil().clamp(1.0, MOST);
         let mut hint = None;
         let mut touches = |share: f64| {
@@ -229,12 +228,7 @@ impl Family {
         let mut k = 0.0;
         while k < parts {
             if !touches((k + 1.0) / parts) {
-                let (mut on, mut off) = (k / parts, (k + 1.0) / parts);
-                for _ in 0..HALVINGS {
-                    let middle = 0.5 * (on + off);
-                    if touches(middle) { on = middle } else { off = middle }
-                }
-                return on;
+                return outline::border(k / parts, (k + 1.0) / parts, &mut touches);
             }
             k += 1.0;
         }

@@ -7,8 +7,8 @@
 use std::sync::Arc;
 
 use super::apart::Apart;
-use super::family::Leg;
-use super::outline::crossings;
+use super::family::{LINK, Leg};
+use super::outline::{self, crossings};
 use crate::geom::surface::{Cutter, Guide, Rim, SurfaceTree, Track};
 use crate::geom::{Point2, Point3, Vec2};
 use crate::ir::{Along, Band, Spacing, Surface};
@@ -156,30 +156,49 @@ impl Lanes {
                 |along: f64| if axis == 0 { Point2::new(along, across) } else { Point2::new(across, along) };
             self.held(place(a), place(b))
         };
-        steps.over(high - low, &line)
+        Ok(steps.over(high - low, &line)?.into_iter().flat_map(|lane| self.stretches(lane)).collect())
     }
 
-    /// A line, cut back to where the cutter touches at both ends.
+    /// A line, cut back to where the cutter touches at both ends; between them it may lose the surface.
     fn held(&self, from: Point2, to: Point2) -> Option<Track> {
-        const PARTS: u32 = 32;
-        const HALVINGS: u32 = 24;
+        const PARTS: usize = 32;
+        let all = self.touching(from, to, PARTS);
+        self.part((from, to), (all.first()?.0, all.last()?.1))
+    }
+
+    /// The stretches of a line on which the cutter touches, looked at closely.
+    fn stretches(&self, (track, room): Lane) -> Vec<Lane> {
+        let Guide::Line { from, to } = track.guide else { return vec![(track, room)] };
+        let all = self.touching(from, to, self.close(from, to));
+        all.into_iter().filter_map(|range| Some((self.part((from, to), range)?, room))).collect()
+    }
+
+    /// Steps in which it is looked at closely whether the cutter touches.
+    fn close(&self, from: Point2, to: Point2) -> usize {
+        const CLOSE: f64 = 0.1;
+        const MOST: usize = 4096;
+        crate::math::ceil_to_usize((to - from).norm() / (CLOSE * self.cutter.radius())).clamp(1, MOST)
+    }
+
+    /// The shares of a line on which the cutter touches.
+    fn touching(&self, from: Point2, to: Point2, parts: usize) -> Vec<(f64, f64)> {
+        let mut hint = None;
+        outline::held(parts, &mut |t| {
+            let p = from + (to - from) * t;
+            let found = self.cutter.drop(&self.tree, p.x, p.y, hint.as_ref());
+            hint = found.or(hint);
+            found.is_some()
+        })
+    }
+
+    /// The part of a line on which the cutter touches, and a little less where that ends before the line does.
+    fn part(&self, (from, to): (Point2, Point2), (a, b): (f64, f64)) -> Option<Track> {
+        const LEAST: f64 = 1e-3;
+        let length = (to - from).norm();
+        let short = SHORT / length.max(SHORT);
+        let (a, b) = (if a > 0.0 { a + short } else { a }, if b < 1.0 { b - short } else { b });
         let at = |t: f64| from + (to - from) * t;
-        let touches = |t: f64| self.cutter.drop(&self.tree, at(t).x, at(t).y, None).is_some();
-        let inside = (0..=PARTS).map(|k| f64::from(k) / f64::from(PARTS));
-        let (first, last) = (inside.clone().find(|t| touches(*t))?, inside.rev().find(|t| touches(*t))?);
-        let end = |mut on: f64, mut off: f64| {
-            for _ in 0..HALVINGS {
-                let middle = 0.5 * (on + off);
-                if touches(middle) { on = middle } else { off = middle }
-            }
-            on
-        };
-        let part = 1.0 / f64::from(PARTS);
-        let short = SHORT / (to - from).norm().max(SHORT);
-        let a = if first > 0.0 { (end(first, first - part) + short).min(last) } else { 0.0 };
-        let b = if last < 1.0 { (end(last, last + part) - short).max(first) } else { 1.0 };
-        (b > a && (to - from).norm() * (b - a) > 1e-3)
-            .then(|| self.track(Guide::Line { from: at(a), to: at(b) }))
+        (length * (b - a) > LEAST).then(|| self.track(Guide::Line { from: at(a), to: at(b) }))
     }
 
     /// Lines over parameter lines along u (0) or v (1), and over the rim.
@@ -211,7 +230,9 @@ impl Lanes {
     fn link(&self, from: &Track, to: &Track) -> Option<Track> {
         match (&from.guide, &to.guide) {
             (Guide::Line { to: end, .. }, Guide::Line { from: start, .. }) => {
-                Some(self.track(Guide::Line { from: *end, to: *start })).filter(follows)
+                let near = (start - end).norm() <= LINK * self.cutter.radius();
+                let follows = || self.touching(*end, *start, self.close(*end, *start)) == [(0.0, 1.0)];
+                (near && follows()).then(|| self.track(Guide::Line { from: *end, to: *start }))
             }
             (
                 Guide::Over { axis, value, range: (_, end), rim },
@@ -223,16 +244,6 @@ impl Lanes {
             _ => None,
         }
     }
-}
-
-/// Whether the cutter touches all along a short track.
-fn follows(track: &Track) -> bool {
-    const PLACES: u32 = 16;
-    let mut hint = None;
-    (0..=PLACES).all(|k| {
-        hint = track.at(f64::from(k) / f64::from(PLACES), hint.as_ref());
-        hint.is_some()
-    })
 }
 
 /// Points of the cutter's reference on its way onto a track are clear of the surface, from the first on.

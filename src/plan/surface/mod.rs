@@ -42,7 +42,7 @@ impl Planner<'_> {
         let radius = tool.diameter / 2.0;
         let cutter = tool.solid().unwrap_or_else(|| Cutter::ball(radius));
         let net = &self.program.nets[surface.net].net;
-        if let Some(why) = extent::refused(net, surface.spacing, radius, self.program.units) {
+        if let Some(why) = extent::refused(net, surface.spacing, &cutter, self.program.units) {
             return self.no_passes(&why, origin);
         }
         let reach = radius + surface.leave + surface.band.out;

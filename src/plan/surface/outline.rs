@@ -105,6 +105,34 @@ fn inside(outline: &[Point2], axis: usize, across: f64) -> Vec<(f64, f64)> {
     out
 }
 
+/// Halvings that find the border of what holds.
+const HALVINGS: u32 = 24;
+
+/// The last place on the way from `on`, where something holds, to `off`, where it does not, on which it does.
+pub(super) fn border(mut on: f64, mut off: f64, holds: &mut dyn FnMut(f64) -> bool) -> f64 {
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (on + off);
+        if holds(middle) { on = middle } else { off = middle }
+    }
+    on
+}
+
+/// The ranges of 0..=1 on which something holds, in rising order; looked at in so many equal steps.
+pub(super) fn held(parts: usize, holds: &mut dyn FnMut(f64) -> bool) -> Vec<(f64, f64)> {
+    let at = |k: usize| count(k) / count(parts.max(1));
+    let seen: Vec<bool> = (0..=parts).map(|k| holds(at(k))).collect();
+    let mut out: Vec<(f64, f64)> = Vec::new();
+    for k in (0..=parts).filter(|k| seen[*k]) {
+        if k == 0 || !seen[k - 1] {
+            out.push((if k == 0 { 0.0 } else { border(at(k), at(k - 1), holds) }, at(k)));
+        }
+        if let Some(last) = out.last_mut() {
+            last.1 = if k < parts && !seen[k + 1] { border(at(k), at(k + 1), holds) } else { at(k) };
+        }
+    }
+    out
+}
+
 /// Ranges in rising order, those that overlap united.
 pub(super) fn united(ranges: impl Iterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
     let mut sorted: Vec<(f64, f64)> = ranges.collect();
@@ -166,6 +194,18 @@ mod tests {
         assert!((two[0].1 - 2.5).abs() < 1e-12 && (two[1].0 - 7.5).abs() < 1e-12, "{two:?}");
         assert_eq!(crossings(&outline, 0, 2.5), Some((0.0, 10.0)));
         assert!(inside(&outline, 0, 5.0).is_empty());
+    }
+
+    #[test]
+    fn what_holds_is_found_with_its_borders() {
+        let mut holds = |t: f64| (0.13..=0.41).contains(&t) || t >= 0.77;
+        let found = held(20, &mut holds);
+        assert_eq!(found.len(), 2, "{found:?}");
+        let near = |a: f64, b: f64| (a - b).abs() < 1e-6;
+        assert!(near(found[0].0, 0.13) && near(found[0].1, 0.41), "{found:?}");
+        assert!(near(found[1].0, 0.77) && found[1].1 == 1.0, "{found:?}");
+        assert!(held(8, &mut |_| false).is_empty());
+        assert_eq!(held(8, &mut |_| true), [(0.0, 1.0)]);
     }
 
     #[test]

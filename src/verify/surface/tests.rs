@@ -119,15 +119,16 @@ fn with_net(operation: &str, net: &str) -> Build {
     build
 }
 
+/// A banana: lines of constant y near its ends meet both tips and nothing between them.
+const BANANA: &str = "N1 = NET/ 4, 4, (0, 0, 0), (0, 8, 1), (0, 16, 2), (0, 24, 0), $\n\
+                      (12, 16, 1), (12, 24, 4), (12, 32, 3), (12, 40, 2), $\n\
+                      (24, 16, 2), (24, 24, 3), (24, 32, 5), (24, 40, 1), $\n\
+                      (36, 0, 0), (36, 8, 2), (36, 16, 1), (36, 24, 0)\n";
+
 #[test]
 fn plan_passes_over_a_hollow_outline_run_in_stretches() {
-    // A banana: lines of constant y near its ends meet both tips and nothing between them.
-    let banana = "N1 = NET/ 4, 4, (0, 0, 0), (0, 8, 1), (0, 16, 2), (0, 24, 0), $\n\
-                  (12, 16, 1), (12, 24, 4), (12, 32, 3), (12, 40, 2), $\n\
-                  (24, 16, 2), (24, 24, 3), (24, 32, 5), (24, 40, 1), $\n\
-                  (36, 0, 0), (36, 8, 2), (36, 16, 1), (36, 24, 0)\n";
     for along in ["X", "Y"] {
-        let build = with_net(&format!("ZIGZAG, {along}, CUSP, 0.03"), banana);
+        let build = with_net(&format!("ZIGZAG, {along}, CUSP, 0.03"), BANANA);
         let proof = proof(&build);
         assert!(proof.into.value <= 1e-6 && proof.out.value <= 0.01 + 1e-6, "{along}: {proof:?}");
         assert!(proof.cusp.expect("cusps").value <= 0.0301, "{along}: {proof:?}");
@@ -264,11 +265,35 @@ fn cutters_with_a_flat_or_a_cone_keep_their_band() {
 fn crowned(cutter: &str, operation: &str) -> Build {
     let net = "N1 = NET/ 3, 3, (0, 0, 0), (0, 7, 2), (0, 14, 1), (9, 0, 2), (9, 7, 5), (9, 14, 2), \
                (18, 0, 0), (18, 7, 3), (18, 14, 1)\n";
+    finished(net, cutter, operation)
+}
+
+/// A net finished with another cutter than a ball.
+fn finished(net: &str, cutter: &str, operation: &str) -> Build {
     let text = program(operation).replace("BALL, 6", cutter);
     let (from, to) = (text.find("N1 =").expect("a net"), text.find("T1 =").expect("a cutter"));
     let mut files = MemoryFiles::default();
     files.0.insert("part.apt".to_owned(), format!("{}{net}{}", &text[..from], &text[to..]));
     driver::build("part.apt", &files, &Options::default())
+}
+
+#[test]
+fn lines_of_cutters_with_a_flat_run_in_stretches_over_a_hollow_outline() {
+    let build = finished(BANANA, "BULL, 4, 1", "ZIGZAG, X, STEP, 2");
+    assert!(!build.has_errors(), "{:#?}", build.diagnostics);
+    let proof = proof(&build);
+    assert!(proof.into.value <= 1e-6 && proof.out.value <= 0.01 + 1e-6, "{proof:?}");
+    let across = |pass: &crate::cl::Pass| match pass.track.guide {
+        crate::geom::surface::Guide::Line { from, .. } if !pass.link => Some(from.y),
+        _ => None,
+    };
+    let records = &build.cl.as_ref().expect("CL").records;
+    let places: Vec<f64> = records
+        .iter()
+        .filter_map(|r| if let RecordKind::Pass(p) = &r.kind { across(p) } else { None })
+        .collect();
+    let twice = places.windows(2).filter(|w| w[0] == w[1]).count();
+    assert!(twice >= 3, "{places:?}");
 }
 
 #[test]

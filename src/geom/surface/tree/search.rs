@@ -114,6 +114,8 @@ const STEPS: u32 = 8;
 const EVERY: u32 = 3;
 /// From this depth on, pieces are bounded by their poles as well.
 const HULL_FROM: u32 = 5;
+/// From this depth on, pieces about the best place are not left to the bounds of their leaf.
+const SURVEYED_FROM: u32 = 2;
 /// Pieces are not cut below this size of their parameters.
 const SMALLEST: f64 = 1e-11;
 
@@ -154,7 +156,6 @@ impl<'a, A: Aim> Search<'a, A> {
     }
 
     pub(super) fn run(&mut self) {
-        self.survey();
         let mut open = BinaryHeap::from([Open { bound: f64::INFINITY, part: Part::Node(0) }]);
         while let Some(Open { bound, part }) = open.pop() {
             if bound <= self.limit() {
@@ -163,7 +164,9 @@ impl<'a, A: Aim> Search<'a, A> {
             match part {
                 Part::Node(node) => self.node(node, &mut open),
                 Part::Piece(leaf, area, depth) => {
-                    self.survey_on(leaf, &area);
+                    if depth >= SURVEYED_FROM {
+                        self.survey(leaf, &area);
+                    }
                     if self.is_settled(leaf, &area) {
                         continue;
                     }
@@ -234,15 +237,9 @@ impl<'a, A: Aim> Search<'a, A> {
     }
 
     /// Looks for a rectangle about the best place over which the score is concave, once a piece with it on is to be cut up.
-    fn survey_on(&mut self, leaf: u32, area: &Area) {
+    fn survey(&mut self, leaf: u32, area: &Area) {
         let patch = self.tree.leaves[leaf as usize].patch;
-        if self.is_about_best(patch, area) {
-            self.survey();
-        }
-    }
-
-    fn survey(&mut self) {
-        if self.surveyed || !self.polished {
+        if self.surveyed || !self.polished || !self.is_about_best(patch, area) {
             return;
         }
         let Some(Spot { patch, uv: [u, v], .. }) = self.spot else { return };
@@ -271,10 +268,7 @@ impl<'a, A: Aim> Search<'a, A> {
         let below = |n: Vec3| {
             let Some((scale, offset)) = self.aim.plane(n) else { return false };
             let above = scale * (n.dot(&at.p.coords) + offset) - self.best;
-            let [uu, uv, vv] = bend.along(n);
-            let mixed = uv.magnitude();
-            let concave = uu.hi < 0.0 && vv.hi < 0.0 && uu.hi * vv.hi > mixed * mixed * (1.0 + 1e-9);
-            concave && above + scale * rises([n.dot(&at.u), n.dot(&at.v)]) <= self.accuracy
+            is_concave(bend, n) && above + scale * rises([n.dot(&at.u), n.dot(&at.v)]) <= self.accuracy
         };
         at.normal().is_some_and(below) || self.facing.is_some_and(below)
     }
@@ -307,10 +301,33 @@ impl<'a, A: Aim> Search<'a, A> {
                 return None;
             }
         }
-        if depth >= HULL_FROM {
+        bound = bound.min(self.from_best(leaf, area));
+        if bound > limit && depth >= HULL_FROM {
             bound = bound.min(self.hull(leaf.patch, area, &planes));
         }
         (bound > limit).then_some(bound)
+    }
+
+    /// The bound of a piece beside the best place, or with it on, from the piece's place nearest to it: where a concave
+    /// function falls, it goes on falling.
+    fn from_best(&self, leaf: &Leaf, area: &Area) -> f64 {
+        let Some(spot) = self.spot.filter(|s| s.patch == leaf.patch && self.polished) else {
+            return f64::INFINITY;
+        };
+        let [u, v] = area.clamp(spot.uv);
+        let jet = self.tree.net.patches()[leaf.patch].jet(u, v);
+        let most = |g: f64, t: f64, (a, b): (f64, f64)| (g * (a - t)).max(g * (b - t));
+        let rises = |g: [f64; 2]| most(g[0], u, area.u) + most(g[1], v, area.v);
+        let below = |n: Vec3| {
+            let (scale, offset) = self.aim.plane(n).filter(|_| is_concave(&leaf.bend, n))?;
+            Some(scale * (n.dot(&jet.p.coords) + offset + rises([n.dot(&jet.u), n.dot(&jet.v)])))
+        };
+        if let Some(bound) = self.facing.and_then(below) {
+            return bound;
+        }
+        let half = [(u - area.u.0).max(area.u.1 - u), (v - area.v.0).max(area.v.1 - v)];
+        let curved = self.aim.concave(&jet, &leaf.bend, half);
+        curved.map_or(f64::INFINITY, |g| self.aim.score(jet.p) + rises(g))
     }
 
     /// The least bound by planes over the poles of a piece: right where the tool lies on a whole line.
@@ -386,6 +403,13 @@ impl<'a, A: Aim> Search<'a, A> {
         }
         self.polished |= self.best > before;
     }
+}
+
+/// Whether n·r is certainly concave over a rectangle.
+fn is_concave(bend: &Bend, n: Vec3) -> bool {
+    let [uu, uv, vv] = bend.along(n);
+    let mixed = uv.magnitude();
+    uu.hi < 0.0 && vv.hi < 0.0 && uu.hi * vv.hi > mixed * mixed * (1.0 + 1e-9)
 }
 
 /// How far a piece with these half widths rises along `n` above its middle at most.
