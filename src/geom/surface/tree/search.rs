@@ -301,7 +301,7 @@ impl<'a, A: Aim> Search<'a, A> {
                 return None;
             }
         }
-        bound = bound.min(self.from_best(leaf, area));
+        bound = bound.min(self.beside_best(leaf, area));
         if bound > limit && depth >= HULL_FROM {
             bound = bound.min(self.hull(leaf.patch, area, &planes));
         }
@@ -310,7 +310,7 @@ impl<'a, A: Aim> Search<'a, A> {
 
     /// The bound of a piece beside the best place, or with it on, from the piece's place nearest to it: where a concave
     /// function falls, it goes on falling.
-    fn from_best(&self, leaf: &Leaf, area: &Area) -> f64 {
+    fn beside_best(&self, leaf: &Leaf, area: &Area) -> f64 {
         let Some(spot) = self.spot.filter(|s| s.patch == leaf.patch && self.polished) else {
             return f64::INFINITY;
         };
