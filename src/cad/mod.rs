@@ -6,6 +6,7 @@
 
 use std::sync::Arc;
 
+use crate::geom::surface::net::uneven;
 use crate::geom::surface::{Net, NetIssue, SplineIssue, SplineSurface};
 
 mod bounds;
@@ -229,6 +230,7 @@ fn net_of(surface: &SplineSurface, line: usize) -> Result<Net, Trouble> {
             SplineIssue::Net(NetIssue::NotFinite) => {
                 "a pole or weight of the surface is not a finite number, or a weight is not positive".into()
             }
+            SplineIssue::Net(NetIssue::Uneven { least, most }) => uneven(least, most),
             SplineIssue::Net(NetIssue::Count { wanted, given }) => {
                 format!("the surface wants {wanted} poles, each with its weight, and has {given}")
             }

@@ -5,6 +5,7 @@ use crate::diag::Diagnostic;
 use crate::diag::codes::{geometry, planning, semantics as codes};
 use crate::geom::Point3;
 use crate::geom::surface::curvature::most_concave;
+use crate::geom::surface::net::uneven;
 use crate::geom::surface::{Net, NetIssue};
 use crate::ir::{Along, CutterKind, NetEntity, RoughNet, Spacing, StepKind, StockShape, Surface, Tool};
 use crate::math::{DEG, count};
@@ -450,6 +451,9 @@ fn unsound(issue: &NetIssue, at: Span) -> Diagnostic {
             ),
             "give the poles row by row",
         ),
+        NetIssue::Uneven { least, most } => {
+            (uneven(*least, *most), "weights say how much a pole draws: from 0.1 to 10 is usual")
+        }
         NetIssue::NotFinite => (
             "a pole or weight of the net is not a finite number, or a weight is not positive".into(),
             "correct it",

@@ -25,6 +25,23 @@ pub enum NetIssue {
     },
     /// A coordinate or weight that is not finite, or a weight that is not positive.
     NotFinite,
+    /// Weights that differ by more than a factor of [`MOST_UNEVEN`].
+    Uneven {
+        /// Smallest weight.
+        least: f64,
+        /// Largest weight.
+        most: f64,
+    },
+}
+
+/// The largest weight of a net is at most so many times the smallest: beyond that nothing of some poles is left in the digits of
+/// the numbers, and no surface of practice comes near it.
+pub const MOST_UNEVEN: f64 = 1e8;
+
+/// What is wrong with weights of these sizes.
+#[must_use]
+pub fn uneven(least: f64, most: f64) -> String {
+    format!("the weights go from {least} to {most}; the largest may be {MOST_UNEVEN} times the smallest")
 }
 
 /// How two neighbouring patches meet.
@@ -93,6 +110,7 @@ impl Net {
         if !usable(p) || !usable(q) || size.contains(&0) {
             return Err(NetIssue::Size { rows, columns });
         }
+        check_weights(weights)?;
         let mut patches = Vec::with_capacity(size[0] * size[1]);
         for i in 0..size[0] {
             for j in 0..size[1] {
@@ -212,6 +230,13 @@ fn check_counts(
         return Err(NetIssue::Count { wanted, given });
     }
     Ok(())
+}
+
+/// Whether weights are of the same order, as far as they are sound.
+fn check_weights(weights: Option<&[f64]>) -> Result<(), NetIssue> {
+    let weights = weights.unwrap_or_default().iter().copied().filter(|w| w.is_finite() && *w > 0.0);
+    let (least, most) = weights.fold((f64::INFINITY, 0.0_f64), |(a, b), w| (a.min(w), b.max(w)));
+    if most > MOST_UNEVEN * least { Err(NetIssue::Uneven { least, most }) } else { Ok(()) }
 }
 
 #[cfg(test)]

@@ -15,6 +15,7 @@ mod search;
 mod slide;
 
 use core::cell::RefCell;
+use core::sync::atomic::{AtomicU64, Ordering};
 
 use super::crease::Creases;
 use super::curvature::{Derivatives, hulls};
@@ -56,6 +57,8 @@ pub struct SurfaceTree {
     /// Bounds of |r_uu|, |r_uv|, |r_vv| over each patch.
     swings: Vec<[f64; 3]>,
     glides: Vec<Swings>,
+    /// Pieces of leaves that questions have cut up so far.
+    work: AtomicU64,
 }
 
 /// Bounding box with children, or a leaf.
@@ -171,14 +174,23 @@ impl Slab {
     }
 }
 
-/// Leaves have at most this depth below their patch when the tree is made.
+/// Leaves have at most this depth below their patch when the tree is made …
 const DEEPEST: u32 = 7;
+/// … but where they are still larger than this share of the reach: there at most this depth, as long as there are no more
+/// leaves than this.
+const LARGE: f64 = 0.25;
+const STEEPEST: u32 = 14;
+const MOST_LEAVES: usize = 200_000;
 /// … and at least this.
 const SHALLOWEST: u32 = 3;
 /// Newton steps that would bring half the square distance down by half the square of this, mm, are not made.
 const SETTLED: f64 = 1e-7;
 /// Pieces of leaves that one question may cut up.
 const MOST_PIECES: u32 = 2_000;
+/// Pieces that all questions together may cut up, those about a ball counted [`ROUND`]fold for what they cost: some minutes of
+/// work. Only surfaces whose poles or weights are so uneven that their bounds tell next to nothing come near to it.
+const MOST_WORK: u64 = 100_000_000;
+const ROUND: u64 = 3;
 /// Distances that agree so well are the same, mm.
 const SAME: f64 = 1e-10;
 
@@ -193,8 +205,19 @@ impl SurfaceTree {
         let (nodes, leaves, sure) = (Vec::new(), Vec::new(), Vec::new());
         let creases = Creases::new(&net);
         let upright = true;
-        let mut tree =
-            SurfaceTree { net, derivatives, nodes, leaves, sure, reach, upright, creases, swings, glides };
+        let mut tree = SurfaceTree {
+            net,
+            derivatives,
+            nodes,
+            leaves,
+            sure,
+            reach,
+            upright,
+            creases,
+            swings,
+            glides,
+            work: AtomicU64::new(0),
+        };
         let [rows, columns] = tree.net.size();
         tree.nodes.push(EMPTY);
         let root = tree.block((0, rows), (0, columns), reach);
@@ -221,6 +244,25 @@ impl SurfaceTree {
     #[must_use]
     pub fn is_upright(&self) -> bool {
         self.upright
+    }
+    /// Whether questions have taken more work than is bearable. From then on answers are bounds that say little, and what is
+    /// made of them is not to be used: whether it comes to this does not depend on the order of the questions.
+    #[must_use]
+    pub fn is_exhausted(&self) -> bool {
+        self.work.load(Ordering::Relaxed) > MOST_WORK
+    }
+    /// As if too much work had been done.
+    #[cfg(test)]
+    pub(crate) fn exhaust(&self) {
+        self.spend(2 * MOST_WORK);
+    }
+    /// The pieces that one question may cut up, of at most so many.
+    fn budget(&self, most: u32) -> u32 {
+        if self.is_exhausted() { 0 } else { most }
+    }
+    /// Counts a piece that a question has cut up.
+    fn spend(&self, cost: u64) {
+        self.work.fetch_add(cost, Ordering::Relaxed);
     }
     /// The number of leaves.
     #[must_use]
@@ -277,7 +319,8 @@ impl SurfaceTree {
             let slab = Slab::new(piece);
             let size = 2.0 * slab.radius;
             let fits = convex(&derivatives, &cone(&derivatives, reach, size)) && size < reach.max(1e-3);
-            if fits || depth >= DEEPEST {
+            let large = size > LARGE * reach && depth < STEEPEST && self.leaves.len() < MOST_LEAVES;
+            if fits || depth >= DEEPEST && !large {
                 self.upright &= rises(&derivatives);
                 self.leaves.push(Leaf { patch, area, hull, slab, bend });
                 let kind = Kind::Leaf(index(self.leaves.len() - 1));

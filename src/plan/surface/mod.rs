@@ -66,6 +66,7 @@ impl Planner<'_> {
             true => (Family::new(surface, Arc::clone(&tree), radius, shares).legs(surface), surface.band),
         };
         let legs = match legs {
+            _ if tree.is_exhausted() => return self.too_uneven(surface.net, origin),
             Ok(legs) => legs,
             Err(why) => return self.no_passes(&why, origin),
         };
@@ -217,6 +218,19 @@ impl Planner<'_> {
         let diagnostic = Diagnostic::new(&codes::CLEARANCE_TOO_LOW, self.span(origin), message).help(help);
         self.report(diagnostic, origin);
         false
+    }
+
+    /// Bounds on the surface tell too little for its distances to be found in bearable time.
+    pub(super) fn too_uneven(&mut self, net: Handle<NetEntity>, origin: Handle<Origin>) {
+        let net = &self.program.nets[net];
+        let message = format!(
+            "distances from {} take more work than can be done: its poles or its weights are too uneven for bounds to tell where it is near",
+            net.name
+        );
+        let diagnostic = Diagnostic::new(&codes::NO_PASSES, self.span(origin), message)
+            .label(self.span(net.origin), "the surface")
+            .help("weights that differ by less, or poles that lie more evenly, describe nearly the same surface; a net of several patches does so for steep ones");
+        self.report(diagnostic, origin);
     }
 
     fn no_passes(&mut self, why: &str, origin: Handle<Origin>) {

@@ -91,6 +91,9 @@ impl Planner<'_> {
             return self.no_stock(rough, top, Some(job.low), origin);
         }
         let plan = clear_all(&job, rough.step);
+        if tree.is_exhausted() {
+            return self.too_uneven(rough.net, origin);
+        }
         let finish = Finish { tree, radius, cutter, leave: rough.leave, cusp: None };
         self.emit_clearing(rough, (&name, ready), &job, (&plan, finish), origin);
         self.tell_entries(&name, &plan.tally, origin);

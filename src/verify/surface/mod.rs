@@ -20,9 +20,10 @@ mod tile;
 pub use remaining::{Left, Remaining, Sweep};
 
 use super::certificate::{ClearingProof, Deviation, SurfaceProof};
-use super::finding::Finding;
+use super::finding::{Finding, Text};
 use super::{Case, Placed};
 use crate::cl::Finish;
+use crate::diag::codes::verification as codes;
 
 /// What was measured of all moves of one operation.
 #[derive(Debug)]
@@ -84,6 +85,14 @@ pub(super) fn all(case: &Case<'_>) -> (Vec<Finding>, Vec<Proof>) {
                 Found::Finished(proof(finish, &swept, &cover))
             }
         };
+        if finish.tree.is_exhausted() {
+            let line = own.first().map_or(0, |placed| placed.line);
+            let text = Text::default().words(format!(
+                "distances from the surface of {} take more work than can be done",
+                operation.name
+            ));
+            findings.push(Finding::new(&codes::CANNOT_PROVE, line, None, text));
+        }
         proofs.push(Proof { operation: index, proof });
     }
     (findings, proofs)

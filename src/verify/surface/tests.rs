@@ -85,6 +85,14 @@ fn passes_in_planes_take_fewer_arcs_than_lines() {
 }
 
 #[test]
+fn what_is_told_by_an_exhausted_surface_is_no_proof() {
+    let build = build("ZIGZAG, U, STEP, 6");
+    let (cl, target) = (build.cl.as_ref().expect("CL"), build.outputs[0].target.as_ref().expect("a target"));
+    cl.operations[0].guard.surface.as_ref().expect("a surface").tree.exhaust();
+    assert!(refused(cl, target).contains(&"E0810"));
+}
+
+#[test]
 fn an_arc_that_ends_too_deep_or_too_high_is_found() {
     let build = build("ZIGZAG, X, CIRCUL, CUSP, 0.02");
     let cl = build.cl.as_ref().expect("CL");

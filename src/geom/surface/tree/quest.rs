@@ -2,7 +2,7 @@
 
 use super::bend::{Bend, Hessian};
 use super::place::{Place, descend};
-use super::{Area, Foot, Kind, Leaf, MOST_PIECES, SAME, SurfaceTree, box_distance, hull};
+use super::{Area, Foot, Kind, Leaf, MOST_PIECES, ROUND, SAME, SurfaceTree, box_distance, hull};
 use crate::geom::surface::interval::Interval;
 use crate::geom::{Point3, Vec3};
 
@@ -37,7 +37,16 @@ impl<'a> Quest<'a> {
         within: f64,
     ) -> Quest<'a> {
         let limit = best.distance.min(within);
-        Quest { tree, x, best, settled, limit, open: f64::INFINITY, enough: 0.0, budget: MOST_PIECES }
+        Quest {
+            tree,
+            x,
+            best,
+            settled,
+            limit,
+            open: f64::INFINITY,
+            enough: 0.0,
+            budget: tree.budget(MOST_PIECES),
+        }
     }
 
     /// Any point that is nearer than this will do.
@@ -175,6 +184,7 @@ impl<'a> Quest<'a> {
                 continue;
             }
             self.budget -= 1;
+            self.tree.spend(ROUND);
             area.parts(|part| stack.push((part, depth + 1)));
         }
     }

@@ -133,7 +133,7 @@ impl<'a, A: Aim> Search<'a, A> {
             floor: NOTHING,
             accuracy,
             open: f64::NEG_INFINITY,
-            budget: MOST_PIECES,
+            budget: tree.budget(MOST_PIECES),
         }
     }
     /// Scores of at most `floor` are of no interest.
@@ -176,6 +176,7 @@ impl<'a, A: Aim> Search<'a, A> {
                         return;
                     }
                     self.budget -= 1;
+                    self.tree.spend(1);
                     area.parts(|area| self.piece(leaf, area, depth + 1, bound, &mut open));
                 }
             }
