@@ -201,6 +201,16 @@ fn sinumerik_as_nc_gcode_interpreter_executes_it() {
     println!("sinumerik: {compared} blocks agree with nc-gcode-interpreter");
 }
 
+/// gcode-toolpath tells the points of an arc in the order of its plane's axes: Z, X, Y in G18 and Y, Z, X in G19.
+fn as_the_plane_has_them(points: &[Point3], path: &TracePath) -> Vec<Point3> {
+    let turn = match path {
+        TracePath::Tilted(arc) if arc.axis.y != 0.0 => |p: &Point3| Point3::new(p.y, p.z, p.x),
+        TracePath::Tilted(_) => |p: &Point3| Point3::new(p.z, p.x, p.y),
+        _ => |p: &Point3| *p,
+    };
+    points.iter().map(turn).collect()
+}
+
 #[test]
 fn grbl_as_gcode_toolpath_executes_it() {
     let Some(installed) = installed() else { return };
@@ -223,6 +233,7 @@ fn grbl_as_gcode_toolpath_executes_it() {
         let skip = theirs.len().checked_sub(ours.len()).expect("as many moves as ours");
         for ((line, ours), (kind, way, path)) in ours.iter().zip(&theirs[skip..]) {
             let place = format!("{} for grbl, line {line}", program.name);
+            let path = as_the_plane_has_them(path, &ours.path);
             assert!(
                 (path[0] - ours.start()).norm() < 1e-6 && (path[1] - ours.end()).norm() < 1e-6,
                 "{place}: {path:?} {ours:?}"
@@ -232,7 +243,11 @@ fn grbl_as_gcode_toolpath_executes_it() {
                     assert!(kind == "A" && (way == "C") == (*sweep < 0.0), "{place}: {way}");
                     assert!((path[2].xy() - centre).norm() < 1e-6, "{place}: {path:?} {centre:?}");
                 }
-                TracePath::Tilted(_) => assert_eq!(kind, "A", "{place}"),
+                TracePath::Tilted(arc) => {
+                    let clockwise = arc.sweep * arc.axis.sum() < 0.0;
+                    assert!(kind == "A" && (way == "C") == clockwise, "{place}: {way}");
+                    assert!((path[2] - arc.centre).norm() < 1e-6, "{place}: {path:?} {:?}", arc.centre);
+                }
                 _ => assert!(kind == "L" && (way == "R") == ours.rapid, "{place}"),
             }
             compared += 1;
