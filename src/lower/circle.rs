@@ -59,6 +59,12 @@ impl Helix {
         self.centre + (self.frame[0] * c + self.frame[1] * s) * r + self.axis * h
     }
 
+    /// Bound of the second derivative, mm.
+    pub(super) fn bend(&self) -> f64 {
+        let change = (self.radius.1 - self.radius.0).abs();
+        self.radius.0.max(self.radius.1) * self.sweep * self.sweep + 2.0 * change * self.sweep
+    }
+
     /// The plane it turns in and whether it is clockwise there.
     fn plane(&self) -> Option<(Plane, bool)> {
         [Plane::Xy, Plane::Zx, Plane::Yz].into_iter().find_map(|plane| {

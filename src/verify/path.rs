@@ -141,7 +141,7 @@ impl Primitive {
 }
 
 /// Bounds on the derivatives of a polar primitive whose angle changes by `sweep`.
-fn polar_bounds(radius: (f64, f64), sweep: f64) -> [f64; 3] {
+pub(super) fn polar_bounds(radius: (f64, f64), sweep: f64) -> [f64; 3] {
     let r = radius.0.abs().max((radius.0 + radius.1).abs());
     let (dr, w) = (radius.1.abs(), sweep.abs());
     [dr + r * w, 2.0 * dr * w + r * w * w, 3.0 * dr * w * w + r * w * w * w]

@@ -197,11 +197,11 @@ fn above(a: &Sample, b: &Sample, k: f64) -> (f64, f64) {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::geom::surface::Net;
 
-    fn bowl() -> SurfaceTree {
+    pub(in crate::geom::surface) fn bowl() -> SurfaceTree {
         let z = [[0.0, 4.0, 4.0, 0.0], [4.0, 16.0, 16.0, 4.0], [4.0, 16.0, 16.0, 4.0], [0.0, 4.0, 4.0, 0.0]];
         let poles: Vec<Point3> = (0..16u32)
             .map(|k| {

@@ -7,15 +7,12 @@
 //! their true distance from the surface; where one fails, a narrower band is tried.
 
 use super::vertex::Vertex;
-use super::{Chain, Chart, SLACK, Step, Task};
-use crate::geom::surface::cutter::bent::{self, Way};
-use crate::geom::surface::cutter::extremes;
-use crate::geom::surface::swept::Question;
+use super::{Chain, Chart, Step, Task};
+use crate::cl::Circle;
 use crate::geom::surface::{Contact, Guide};
-use crate::geom::{Point2, Point3, cross};
+use crate::geom::{Point2, Point3, Vec2, Vec3, cross};
 use crate::lower::arc::{GridArc, Legal, centre_per_linear, legalise};
-use crate::lower::circle;
-use crate::math::sin_cos;
+use crate::lower::circle::{self, Helix};
 use crate::target::{Capabilities, Plane};
 
 /// Parts of the band, on either side, that are left to rounding: tried in this order, steps of the grid.
@@ -245,7 +242,7 @@ impl<'a> Fitter<'a> {
 
     /// The line, or the arc of middling curvature, between two vertices.
     fn primitive(&self, from: &Vertex, to: &Vertex, (low, high): Curvatures, out: &mut Chain) -> Option<()> {
-        let straight = low <= 0.0 && high >= 0.0 && self.holds(from, to.steps);
+        let straight = low <= 0.0 && high >= 0.0 && self.task.holds(from, to.steps);
         if straight {
             out.push(Step { to: to.steps, arc: None });
             return Some(());
@@ -260,12 +257,12 @@ impl<'a> Fitter<'a> {
             let (step, held) = match part {
                 Legal::Line(end) => {
                     let to = self.placed(end, from);
-                    (Step { to, arc: None }, self.holds(&at, to))
+                    (Step { to, arc: None }, self.task.holds(&at, to))
                 }
                 Legal::Arc(arc) => {
                     let to = self.placed(arc.to, from);
                     let step = Step { to, arc: Some((self.plane, arc.centre, arc.clockwise)) };
-                    (step, self.follows(&at, &arc))
+                    (step, self.follows(&at, &arc, to))
                 }
             };
             if !held {
@@ -285,7 +282,7 @@ impl<'a> Fitter<'a> {
         let chord = q - p;
         let (half, radius) = (0.5 * chord.norm(), 1.0 / curvature.abs());
         let height = (radius * radius - half * half).max(0.0).sqrt() * curvature.signum();
-        let across = crate::geom::Vec2::new(chord.y, -chord.x) / chord.norm();
+        let across = Vec2::new(chord.y, -chord.x) / chord.norm();
         let hub = p + chord * 0.5 + across * height;
         // As the plane sees it, with the tip for the centre.
         let tip = hub.y - (from.centre.z - from.steps[2] as f64 * self.task.lattice.step);
@@ -308,70 +305,16 @@ impl<'a> Fitter<'a> {
         steps
     }
 
-    fn question(&self) -> Question {
-        let (low, high) = (self.task.ball + self.task.low, self.task.ball + self.task.high);
-        Question { enough: low, little: high, accuracy: SLACK }
-    }
-
-    /// Whether a line stays in the band.
-    fn holds(&self, from: &Vertex, to: [i64; 3]) -> bool {
-        let (question, track) = (self.question(), self.task.track);
-        let (a, b) = (from.centre, self.task.lattice.centre(to));
-        let found = extremes(&track.tree, &track.cutter, a, b, &question, Some(&from.foot));
-        found.least.distance >= question.enough - SLACK && found.most.distance <= question.little + SLACK
-    }
-
     /// Whether an arc, as a control draws it, stays in the band.
-    fn follows(&self, from: &Vertex, arc: &GridArc) -> bool {
-        let (question, track) = (self.question(), self.task.track);
-        let way = Drawn::new(self, from, arc);
-        let at = |x: f64| way.at(x);
-        let way = Way { at: &at, bend: way.bend() };
-        bent::along(&track.tree, &track.cutter, &way, &question, Some(&from.foot)).is_some_and(|found| {
-            found.least.distance >= question.enough - 2.0 * SLACK
-                && found.most.distance <= question.little + 2.0 * SLACK
-        })
-    }
-}
-
-/// An arc whose radius goes linearly with the angle.
-struct Drawn {
-    plane: Plane,
-    centre: Point3,
-    radius: (f64, f64),
-    start: f64,
-    sweep: f64,
-}
-
-impl Drawn {
-    fn new(fitter: &Fitter<'_>, from: &Vertex, arc: &GridArc) -> Drawn {
-        let scale = centre_per_linear(fitter.capabilities);
-        let step = fitter.capabilities.grid.centre_step();
-        let [first, second, _] = fitter.plane.axes();
-        let spoke = arc.centre.map(|c| c as f64 * step);
-        let mut centre = from.centre;
-        centre[first] += spoke[0];
-        centre[second] += spoke[1];
-        let (r0, r1) = arc.radii(scale);
-        let sweep = arc.sweep(scale) * if arc.clockwise { -1.0 } else { 1.0 };
-        let start = crate::math::atan2(-spoke[1], -spoke[0]);
-        Drawn { plane: fitter.plane, centre, radius: (r0 * step, r1 * step), start, sweep }
-    }
-
-    fn at(&self, x: f64) -> Point3 {
-        let (s, c) = sin_cos(self.start + self.sweep * x);
-        let r = self.radius.0 + (self.radius.1 - self.radius.0) * x;
-        let [first, second, _] = self.plane.axes();
-        let mut p = self.centre;
-        p[first] += r * c;
-        p[second] += r * s;
-        p
-    }
-
-    /// Bound of the second derivative, mm.
-    fn bend(&self) -> f64 {
-        let change = (self.radius.1 - self.radius.0).abs();
-        self.radius.0.max(self.radius.1) * self.sweep * self.sweep + 2.0 * change * self.sweep.abs()
+    fn follows(&self, from: &Vertex, arc: &GridArc, to: [i64; 3]) -> bool {
+        let step = self.capabilities.grid.centre_step();
+        let [first, second, third] = self.plane.axes();
+        let (mut centre, mut axis) = (from.centre, Vec3::zeros());
+        centre[first] += arc.centre[0] as f64 * step;
+        centre[second] += arc.centre[1] as f64 * step;
+        axis[third] = if arc.clockwise { -1.0 } else { 1.0 };
+        let circle = Circle { to: self.task.lattice.centre(to), centre, axis, turns: 0, tolerance: 0.0 };
+        Helix::new(from.centre, &circle).is_some_and(|helix| self.task.follows(from, &helix))
     }
 }
 

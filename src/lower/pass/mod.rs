@@ -20,9 +20,10 @@ use super::fit::ribbon;
 use crate::cl::{Cl, Pass, RecordKind};
 use crate::diag::Sink;
 use crate::diag::codes::lowering as codes;
+use crate::geom::surface::cutter::bent::{self, Way};
 use crate::geom::surface::cutter::extremes;
 use crate::geom::surface::swept::Question;
-use crate::geom::surface::{Contact, Foot, Guide, Track};
+use crate::geom::surface::{Contact, Guide, Track};
 use crate::geom::{Point2, Point3};
 use crate::ir::at_origin;
 use crate::target::{Capabilities, Plane};
@@ -250,7 +251,8 @@ impl Task<'_> {
         let mut rest_t = places;
         while let (Some(&(to, depth)), Some(&to_t)) = (rest.last(), rest_t.last()) {
             let from = out[out.len() - 1];
-            if from.steps == to.steps || self.aside(&from, &to, (from_t, to_t)) && self.holds(&from, &to) {
+            if from.steps == to.steps || self.aside(&from, &to, (from_t, to_t)) && self.holds(&from, to.steps)
+            {
                 out.push(to);
                 rest.pop();
                 rest_t.pop();
@@ -301,20 +303,28 @@ impl Task<'_> {
         a.min(b).max(GRID * self.lattice.step)
     }
 
-    /// Whether the straight way between two vertices stays in the band.
-    fn holds(&self, from: &Vertex, to: &Vertex) -> bool {
-        let (least, most) = (self.ball + self.low, self.ball + self.high);
-        let question = Question { enough: least, little: most, accuracy: SLACK };
-        let hint: Foot = from.foot;
-        let found = extremes(
-            &self.track.tree,
-            &self.track.cutter,
-            self.lattice.centre(from.steps),
-            self.lattice.centre(to.steps),
-            &question,
-            Some(&hint),
-        );
-        found.least.distance >= least - SLACK && found.most.distance <= most + SLACK
+    /// The band, as distances of the ball's centre.
+    fn question(&self) -> Question {
+        Question { enough: self.ball + self.low, little: self.ball + self.high, accuracy: SLACK }
+    }
+
+    /// Whether the straight way from a vertex to a place on the grid stays in the band.
+    fn holds(&self, from: &Vertex, to: [i64; 3]) -> bool {
+        let (question, track) = (self.question(), self.track);
+        let (a, b) = (self.lattice.centre(from.steps), self.lattice.centre(to));
+        let found = extremes(&track.tree, &track.cutter, a, b, &question, Some(&from.foot));
+        found.least.distance >= question.enough - SLACK && found.most.distance <= question.little + SLACK
+    }
+
+    /// Whether an arc from a vertex stays in the band.
+    fn follows(&self, from: &Vertex, arc: &circle::Helix) -> bool {
+        let (question, track) = (self.question(), self.track);
+        let at = |x: f64| arc.at(x);
+        let way = Way { at: &at, bend: arc.bend() };
+        bent::along(&track.tree, &track.cutter, &way, &question, Some(&from.foot)).is_some_and(|found| {
+            found.least.distance >= question.enough - 2.0 * SLACK
+                && found.most.distance <= question.little + 2.0 * SLACK
+        })
     }
 }
 

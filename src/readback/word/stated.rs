@@ -40,15 +40,31 @@ const STATEMENTS: [(Statement, Set); 25] = [
         "numbers",
         "`whole`, `least`, `setting`",
         "a length without a point: whole units, least increments, or one of them by a setting",
-        numbers,
+        |r, v| {
+            put(
+                v,
+                &mut r.unpointed,
+                &[("whole", Unpointed::Whole), ("least", Unpointed::Least), ("setting", Unpointed::Setting)],
+            )
+        },
     ),
     row("line", "a number", "longest line in characters, 0 without limit", line),
     row("most-m", "a number", "M codes in a block", most_m),
-    row("motion", "`modal`, `repeated`", "whether motion codes stay in force", motion),
-    row("feed-mode", "`said`, `per-minute`", "whether programs choose between feed modes", feed_mode),
-    row("corners", "`exact`, `said`", "whether the path is exact without G61 or G64", corners),
-    row("offsets", "`said`, `none`", "whether programs choose a work offset", offsets),
-    row("tool", "`M6`, `T`", "what changes tools", tool),
+    row("motion", "`modal`, `repeated`", "whether motion codes stay in force", |r, v| {
+        put(v, &mut r.repeat_motion, &[("modal", false), ("repeated", true)])
+    }),
+    row("feed-mode", "`said`, `per-minute`", "whether programs choose between feed modes", |r, v| {
+        put(v, &mut r.feed_modes, &[("said", true), ("per-minute", false)])
+    }),
+    row("corners", "`exact`, `said`", "whether the path is exact without G61 or G64", |r, v| {
+        put(v, &mut r.blends, &[("exact", false), ("said", true)])
+    }),
+    row("offsets", "`said`, `none`", "whether programs choose a work offset", |r, v| {
+        put(v, &mut r.work_offset, &[("said", true), ("none", false)])
+    }),
+    row("tool", "`M6`, `T`", "what changes tools", |r, v| {
+        put(v, &mut r.tool_change, &[("M6", true), ("T", false)])
+    }),
     row(
         "length",
         "`G43`, `word`, `none`",
@@ -71,7 +87,9 @@ const STATEMENTS: [(Statement, Set); 25] = [
     row("arc-words", "three addresses with commas", "words of an arc's centre along X, Y and Z", arc_words),
     row("arc-radius", WORD, "word of an arc's radius", arc_radius),
     row("arc-tolerance", "mm", "how far the radii at an arc's start and end may differ", arc_tolerance),
-    row("arc-end", "`needed`, `bare`", "whether every arc needs an end word in its plane", arc_end),
+    row("arc-end", "`needed`, `bare`", "whether every arc needs an end word in its plane", |r, v| {
+        put(v, &mut r.arc_needs_end, &[("needed", true), ("bare", false)])
+    }),
     row("cycle-level", WORD, "word of the height where feed begins in drilling cycles", |r, v| {
         cycle_word(r, v, |c| &mut c.level)
     }),
@@ -172,6 +190,12 @@ fn choice<T: Copy>(value: &str, table: &[(&str, T)]) -> Result<T, String> {
     })
 }
 
+/// Sets what one of several values means.
+fn put<T: Copy>(value: &str, place: &mut T, table: &[(&str, T)]) -> Result<(), String> {
+    *place = choice(value, table)?;
+    Ok(())
+}
+
 fn count(value: &str) -> Result<usize, String> {
     value.parse().ok().filter(|n| *n <= 65_535).ok_or_else(|| "it takes a number up to 65535".to_owned())
 }
@@ -235,12 +259,6 @@ fn comments(rules: &mut Rules, value: &str) -> Result<(), String> {
     Ok(())
 }
 
-fn numbers(rules: &mut Rules, value: &str) -> Result<(), String> {
-    let table = [("whole", Unpointed::Whole), ("least", Unpointed::Least), ("setting", Unpointed::Setting)];
-    rules.unpointed = choice(value, &table)?;
-    Ok(())
-}
-
 fn line(rules: &mut Rules, value: &str) -> Result<(), String> {
     rules.line_limit = Some(count(value)?).filter(|limit| *limit > 0);
     rules.limit_counts_all = true;
@@ -249,31 +267,6 @@ fn line(rules: &mut Rules, value: &str) -> Result<(), String> {
 
 fn most_m(rules: &mut Rules, value: &str) -> Result<(), String> {
     rules.most_m = count(value)?;
-    Ok(())
-}
-
-fn motion(rules: &mut Rules, value: &str) -> Result<(), String> {
-    rules.repeat_motion = choice(value, &[("modal", false), ("repeated", true)])?;
-    Ok(())
-}
-
-fn feed_mode(rules: &mut Rules, value: &str) -> Result<(), String> {
-    rules.feed_modes = choice(value, &[("said", true), ("per-minute", false)])?;
-    Ok(())
-}
-
-fn corners(rules: &mut Rules, value: &str) -> Result<(), String> {
-    rules.blends = choice(value, &[("exact", false), ("said", true)])?;
-    Ok(())
-}
-
-fn offsets(rules: &mut Rules, value: &str) -> Result<(), String> {
-    rules.work_offset = choice(value, &[("said", true), ("none", false)])?;
-    Ok(())
-}
-
-fn tool(rules: &mut Rules, value: &str) -> Result<(), String> {
-    rules.tool_change = choice(value, &[("M6", true), ("T", false)])?;
     Ok(())
 }
 
@@ -341,11 +334,6 @@ fn arc_radius(rules: &mut Rules, value: &str) -> Result<(), String> {
 fn arc_tolerance(rules: &mut Rules, value: &str) -> Result<(), String> {
     let mm = value.parse().ok().filter(|mm: &f64| (1e-6..=1.0).contains(mm));
     rules.stated_difference = Some(mm.ok_or("it takes mm, from 0.000001 to 1")?);
-    Ok(())
-}
-
-fn arc_end(rules: &mut Rules, value: &str) -> Result<(), String> {
-    rules.arc_needs_end = choice(value, &[("needed", true), ("bare", false)])?;
     Ok(())
 }
 

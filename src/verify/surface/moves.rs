@@ -11,7 +11,7 @@ use crate::geom::surface::cutter::extremes;
 use crate::geom::surface::swept::{Extremes, Question};
 use crate::readback::{Tilted, TracePath};
 use crate::verify::finding::{Finding, Text};
-use crate::verify::path::Primitive;
+use crate::verify::path::{Primitive, polar_bounds};
 use crate::verify::{ACCURACY, Case, Placed};
 
 /// A measured extreme.
@@ -182,7 +182,7 @@ fn followed(operation: &Operation, finish: &Finish, placed: &Placed<'_>) -> (Ext
         return (straight(), vec![swept(from, to, 0.0)]);
     }
     // What is left is told with the chords' distance from the move: a little of what may be left.
-    let fine = (SWEPT * finish.cusp.map_or(operation.band.out, |h| h.min(operation.band.out.max(0.1 * h))))
+    let fine = (SWEPT * finish.cusp.map_or(operation.band.out, |h| operation.band.out.clamp(0.1 * h, h)))
         .max(FINEST);
     let (mut found, mut ways): (Option<Extremes>, Vec<Swept>) = (None, Vec::new());
     for course in Course::of(placed) {
@@ -306,8 +306,8 @@ impl Course<'_> {
     fn bend(&self) -> f64 {
         match self {
             Course::Tilted(arc) => {
-                let ((r0, r1), sweep) = (arc.radii(), arc.sweep.abs());
-                r0.max(r1) * sweep * sweep + 2.0 * (r1 - r0).abs() * sweep
+                let (r0, r1) = arc.radii();
+                polar_bounds((r0, r1 - r0), arc.sweep)[1]
             }
             Course::Flat(primitive, _) => primitive.bounds()[1],
         }

@@ -71,19 +71,12 @@ pub fn along(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geom::surface::Net;
+    use crate::geom::surface::swept::tests::bowl;
     use crate::math::sin_cos;
 
     #[test]
     fn extremes_along_an_arc_are_those_of_dense_samples() {
-        let z = [[0.0, 4.0, 4.0, 0.0], [4.0, 16.0, 16.0, 4.0], [4.0, 16.0, 16.0, 4.0], [0.0, 4.0, 4.0, 0.0]];
-        let poles: Vec<Point3> = (0..16u32)
-            .map(|k| {
-                let (i, j) = (k / 4, k % 4);
-                Point3::new(f64::from(i) * 20.0, f64::from(j) * 20.0, z[i as usize][j as usize])
-            })
-            .collect();
-        let tree = SurfaceTree::new(Net::new(4, 4, &poles, None).expect("a net"), 5.0);
+        let tree = bowl();
         let (radius, sweep) = (60.0, 0.5);
         let at = |x: f64| {
             let (s, c) = sin_cos(sweep * (x - 0.5));
