@@ -57,6 +57,8 @@ const FINEST: f64 = 1e-7;
 /// Chords of arcs that are swept through the stock, mm.
 const SIMULATED: f64 = 2e-3;
 
+/// Chords of moves in pictures of what is left, mm: far below what their colours tell apart.
+const DRAWN: f64 = 5e-5;
 /// Chords of moves along passes leave them by no more than this share of what may be left.
 const SWEPT: f64 = 4e-3;
 /// Largest distances are told exactly where they are more than this share of `OUTTOL`; others are sampled.
@@ -245,7 +247,7 @@ fn clear(finish: &Finish, from: Point3, to: Point3, ball: f64) -> bool {
 
 /// A move as straight ways of the tip, for pictures.
 pub(super) fn chords(placed: &Placed<'_>) -> Vec<(Point3, Point3)> {
-    within(placed, SIMULATED).ways
+    within(placed, DRAWN).ways
 }
 
 /// A move as straight ways of the tip.
