@@ -1,16 +1,7 @@
 //! Arcs as the control takes them: radius check, radius range, largest sweep, full circles.
 
 use crate::math::{TAU, atan2, ceil_to_usize, hypot, sin_cos};
-use crate::target::{Capabilities, FullCircle};
-
-/// An arc on the grid: start and end in linear steps, centre minus start in centre steps.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct GridArc {
-    pub start: [i64; 2],
-    pub to: [i64; 2],
-    pub centre: [i64; 2],
-    pub clockwise: bool,
-}
+use crate::target::{Capabilities, FullCircle, GridArc, Plane};
 
 /// What an arc becomes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -26,61 +17,15 @@ pub(super) struct RadiusMismatch {
     pub radii: (f64, f64),
 }
 
-impl GridArc {
-    /// Start and end minus the centre, in centre steps.
-    fn spokes(&self, scale: i64) -> ([f64; 2], [f64; 2]) {
-        let a = [-self.centre[0] as f64, -self.centre[1] as f64];
-        let chord = [(self.to[0] - self.start[0]) * scale, (self.to[1] - self.start[1]) * scale];
-        (a, [a[0] + chord[0] as f64, a[1] + chord[1] as f64])
-    }
-    /// Radius at start and end, in centre steps.
-    pub fn radii(&self, scale: i64) -> (f64, f64) {
-        let (a, b) = self.spokes(scale);
-        (hypot(a[0], a[1]), hypot(b[0], b[1]))
-    }
-    /// Two halves of a full circle.
-    pub fn halves(&self, scale: i64) -> [GridArc; 2] {
-        // The point opposite to the start, as exactly as centre steps allow.
-        let far = self.centre.map(|c| {
-            let twice = 2 * c;
-            (twice as f64 / scale as f64).round() as i64
-        });
-        let middle = [self.start[0] + far[0], self.start[1] + far[1]];
-        let back = [self.centre[0] - far[0] * scale, self.centre[1] - far[1] * scale];
-        [
-            GridArc { to: middle, ..*self },
-            GridArc { start: middle, to: self.start, centre: back, clockwise: self.clockwise },
-        ]
-    }
-    /// Points of the arc that are furthest out along an axis, in linear steps; ends not counted.
-    pub fn extremes(&self, scale: i64) -> Vec<[f64; 2]> {
-        let (a, _) = self.spokes(scale);
-        let (r0, r1) = self.radii(scale);
-        let radius = r0.max(r1) / scale as f64;
-        let hub = [0, 1].map(|i| self.start[i] as f64 + self.centre[i] as f64 / scale as f64);
-        let (sweep, start) = (self.sweep(scale), atan2(a[1], a[0]));
-        let ahead = |angle: f64| if self.clockwise { start - angle } else { angle - start };
-        let sides = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)];
-        let reached = sides.into_iter().filter(|(c, s)| ahead(atan2(*s, *c)).rem_euclid(TAU) <= sweep);
-        reached.map(|(c, s)| [hub[0] + radius * c, hub[1] + radius * s]).collect()
-    }
-    /// Sweep, 0 < sweep <= 2π, in its own sense.
-    pub fn sweep(&self, scale: i64) -> f64 {
-        if self.start == self.to {
-            return TAU;
-        }
-        let (a, b) = self.spokes(scale);
-        let turn = atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]);
-        let turn = if self.clockwise { -turn } else { turn };
-        if turn > 0.0 { turn } else { turn + TAU }
-    }
-}
-
 /// The blocks for an arc.
 ///
 /// # Errors
 /// When the radii at start and end differ by more than the tightest control accepts; a fit never gives that.
-pub(super) fn legalise(arc: GridArc, capabilities: &Capabilities) -> Result<Vec<Legal>, RadiusMismatch> {
+pub(super) fn legalise(
+    arc: GridArc,
+    plane: Plane,
+    capabilities: &Capabilities,
+) -> Result<Vec<Legal>, RadiusMismatch> {
     let grid = &capabilities.grid;
     let scale = centre_per_linear(capabilities);
     let (r0, r1) = arc.radii(scale);
@@ -100,8 +45,12 @@ pub(super) fn legalise(arc: GridArc, capabilities: &Capabilities) -> Result<Vec<
         let chords = chords_for(sagitta, grid.linear_step() / 4.0);
         return Ok(split(&arc, chords, scale).into_iter().map(|a| Legal::Line(a.to)).collect());
     }
-    let pieces = pieces(sweep, arc.start == arc.to, capabilities);
-    Ok(split(&arc, pieces, scale).into_iter().map(Legal::Arc).collect())
+    let circle = (arc.start == arc.to).then(|| capabilities.full_circle(plane));
+    let pieces = pieces(sweep, circle, capabilities);
+    // The place between may come to lie on the chord.
+    let straight = |a: &GridArc| capabilities.by_middle(plane) && a.centre_by_middle(scale).is_none();
+    let part = |a: GridArc| if straight(&a) { Legal::Line(a.to) } else { Legal::Arc(a) };
+    Ok(split(&arc, pieces, scale).into_iter().map(part).collect())
 }
 
 /// An arc that turns less than this to either side of its chord is a line, radians: a fifth of what joints may turn.
@@ -118,13 +67,13 @@ fn chords_for(sagitta: f64, wanted: f64) -> usize {
 }
 
 /// Blocks for an arc of this sweep.
-fn pieces(sweep: f64, full: bool, capabilities: &Capabilities) -> usize {
-    match (full, capabilities.full_circle) {
-        (true, FullCircle::Whole) => 1,
-        (true, FullCircle::Split(least)) => {
+fn pieces(sweep: f64, circle: Option<FullCircle>, capabilities: &Capabilities) -> usize {
+    match circle {
+        Some(FullCircle::Whole) => 1,
+        Some(FullCircle::Split(least)) => {
             usize::from(least).max(ceil_to_usize(TAU / capabilities.max_sweep - 1e-9))
         }
-        (false, _) => ceil_to_usize(sweep / capabilities.max_sweep - 1e-9).max(1),
+        None => ceil_to_usize(sweep / capabilities.max_sweep - 1e-9).max(1),
     }
 }
 

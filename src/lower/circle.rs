@@ -1,12 +1,14 @@
 //! CL circles: arcs and helices in the planes the control has, else lines within the tolerance.
 
-use super::arc::{GridArc, Legal, centre_per_linear, legalise};
+use core::f64::consts::FRAC_1_SQRT_2;
+
+use super::arc::{Legal, centre_per_linear, legalise};
 use super::emit::Emitter;
 use crate::cl::Circle;
 use crate::diag::codes;
 use crate::geom::{Point2, Point3, Vec3};
 use crate::math::{TAU, acos, atan2, ceil_to_usize, hypot, sin_cos};
-use crate::target::{FeedWord, Motion, Plane, Position};
+use crate::target::{FeedWord, GridArc, Motion, Plane, Position};
 
 /// Largest component of a unit vector beside an axis that still counts as along it.
 const ALONG: f64 = 1e-6;
@@ -137,14 +139,12 @@ impl Emitter<'_> {
         if !capabilities.arcs {
             return Err(Reason::NoArcs);
         }
-        if !capabilities.planes.contains(&plane) {
-            return Err(Reason::NoPlane(plane));
-        }
+        let Some(of_plane) = capabilities.planes.get(&plane) else { return Err(Reason::NoPlane(plane)) };
         let here = self.here();
         let start = [here.x, here.y, here.z];
         let [first, second, third] = plane.axes();
         let rises = start[third] != end[third];
-        if rises && !capabilities.helix {
+        if rises && !of_plane.helix {
             return Err(Reason::NoHelix);
         }
         let flat = |p: [i64; 3]| [p[first], p[second]];
@@ -181,7 +181,10 @@ impl Emitter<'_> {
         let wanted = (helix.radius.0 / step, helix.radius.1 / step);
         let centre = centre(start, to, hub, scale).ok_or(Reason::NotOnGrid)?;
         let arc = GridArc { start, to, centre, clockwise };
-        let off = deviation(&arc, hub, wanted, scale) * step;
+        // A place between on the grid is off the arc by half the diagonal of a cell at most, and so is what it draws.
+        let between =
+            if self.capabilities.by_middle(plane) { FRAC_1_SQRT_2 * grid.linear_step() } else { 0.0 };
+        let off = deviation(&arc, hub, wanted, scale) * step + between;
         let mismatch = {
             let (r0, r1) = arc.radii(scale);
             (r0 - r1).abs() * step
@@ -203,11 +206,11 @@ impl Emitter<'_> {
         let scale = centre_per_linear(self.capabilities);
         let legal = if rise != 0 && arc.start == arc.to {
             let [a, b] = arc.halves(scale);
-            let mut legal = legalise(a, self.capabilities).map_err(|_| Reason::NotOnGrid)?;
-            legal.extend(legalise(b, self.capabilities).map_err(|_| Reason::NotOnGrid)?);
+            let mut legal = legalise(a, plane, self.capabilities).map_err(|_| Reason::NotOnGrid)?;
+            legal.extend(legalise(b, plane, self.capabilities).map_err(|_| Reason::NotOnGrid)?);
             legal
         } else {
-            legalise(arc, self.capabilities).map_err(|_| Reason::NotOnGrid)?
+            legalise(arc, plane, self.capabilities).map_err(|_| Reason::NotOnGrid)?
         };
         let whole = arc.sweep(scale);
         let mut turned = 0.0;

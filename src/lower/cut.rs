@@ -1,6 +1,6 @@
 //! Contours: approach, lead in, the fitted chain, lead out, retract.
 
-use super::arc::{GridArc, Legal, centre_per_linear, legalise};
+use super::arc::{Legal, centre_per_linear, legalise};
 use super::contour::Fitted;
 use super::emit::Emitter;
 use super::fit::{Fit, Primitive};
@@ -10,7 +10,7 @@ use crate::cl::{Contour, Lead};
 use crate::diag::codes;
 use crate::geom::Vec2;
 use crate::ir::Interpolation;
-use crate::target::{FeedWord, Motion, Nurbs, Piece, PieceId, Plane, Position, axes};
+use crate::target::{FeedWord, GridArc, Motion, Nurbs, Piece, PieceId, Plane, Position, axes};
 
 impl Emitter<'_> {
     /// All levels of a contour.
@@ -164,7 +164,7 @@ impl Emitter<'_> {
     }
 
     fn arc(&mut self, arc: GridArc, from: Position, feed: FeedWord) {
-        match legalise(arc, self.capabilities) {
+        match legalise(arc, Plane::Xy, self.capabilities) {
             Ok(parts) => parts.into_iter().for_each(|part| self.legal(part, from, feed)),
             Err(mismatch) => {
                 let (r0, r1) = mismatch.radii;

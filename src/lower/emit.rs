@@ -658,7 +658,7 @@ impl<'a> Emitter<'a> {
     }
 
     /// The furthest points of an arc in X and Y against the travel.
-    pub(super) fn check_bulge(&mut self, arc: &super::arc::GridArc) {
+    pub(super) fn check_bulge(&mut self, arc: &crate::target::GridArc) {
         if self.capabilities.travel.iter().any(Option::is_some) {
             let scale = super::arc::centre_per_linear(self.capabilities);
             arc.extremes(scale).into_iter().for_each(|p| self.check_plane(p));

@@ -7,12 +7,15 @@ use crate::diag::{Diagnostic, codes, did_you_mean};
 use crate::ir::CycleName;
 use crate::ir::{Machine, Rotary};
 use crate::target::{
-    Capabilities, FullCircle, Grid, NurbsForm, PathTolerance, Plane, Ranges, RotaryAxis, RotaryFeed,
+    Capabilities, FullCircle, Grid, NurbsForm, PathTolerance, Plane, PlaneArcs, Ranges, RotaryAxis,
+    RotaryFeed,
 };
 use crate::units::{Angle, LengthUnit};
 
 /// Options of `MACHIN` that lowering knows; others are texts for templates.
 const SHARE: &str = "SHARE";
+/// Words of a place between the ends of an arc.
+pub(super) const BETWEEN: [&str; 3] = ["mx", "my", "mz"];
 /// The group of the work offsets.
 const WORK_OFFSET: &str = "work-offset";
 
@@ -51,7 +54,6 @@ impl Dialect {
             },
             radius_range: (spec.arcs.min_radius, spec.arcs.max_radius),
             radius_tolerance: spec.arcs.radius_tolerance,
-            helix: spec.arcs.helix,
             nurbs: match spec.nurbs.knots.as_str() {
                 "printed" => Some(NurbsForm::G062 { knot_decimals: spec.nurbs.knot_decimals }),
                 "uniform" => Some(NurbsForm::G052),
@@ -105,14 +107,21 @@ impl Dialect {
         }
     }
 
-    /// Planes of arcs.
-    fn planes(&self) -> BTreeSet<Plane> {
-        let named = |name: &String| match name.as_str() {
-            "xy" => Plane::Xy,
-            "zx" => Plane::Zx,
-            _ => Plane::Yz,
+    /// Planes of arcs; those that are spelled in a way of their own are no helices.
+    fn planes(&self) -> BTreeMap<Plane, PlaneArcs> {
+        let patterns = &self.spec.patterns;
+        let arcs = |name: &String| {
+            let (plane, own) = match name.as_str() {
+                "xy" => (Plane::Xy, None),
+                "zx" => (Plane::Zx, Some(&patterns.arc_zx)),
+                _ => (Plane::Yz, Some(&patterns.arc_yz)),
+            };
+            let own = own.filter(|p| !p.is_empty());
+            let between = |items: &Vec<String>| items.iter().any(|i| BETWEEN.contains(&i.as_str()));
+            let helix = own.is_none() && self.spec.arcs.helix;
+            (plane, PlaneArcs { helix, by_middle: own.is_some_and(between) })
         };
-        self.spec.arcs.planes.iter().filter(|_| self.spec.arcs.enabled).map(named).collect()
+        self.spec.arcs.planes.iter().filter(|_| self.spec.arcs.enabled).map(arcs).collect()
     }
 
     /// Drilling cycles that are kept.

@@ -81,6 +81,8 @@ pub(super) fn patterns(dialect: &Dialect) -> Vec<(&'static str, Place, &[String]
         ("patterns.rapid", Place::Rapid, &spec.patterns.rapid),
         ("patterns.line", Place::Line, &spec.patterns.line),
         ("patterns.arc", Place::Arc, &spec.patterns.arc),
+        ("patterns.arc-zx", Place::Arc, &spec.patterns.arc_zx),
+        ("patterns.arc-yz", Place::Arc, &spec.patterns.arc_yz),
         ("patterns.helix", Place::Arc, &spec.patterns.helix),
         ("patterns.hole", Place::Hole, &spec.patterns.hole),
         ("nurbs.begin", Place::Nurbs, &spec.nurbs.begin),
@@ -137,43 +139,72 @@ fn check_arc(dialect: &Dialect, errors: &mut Vec<Diagnostic>) {
     let mut say = |path: &str, message: String| {
         errors.push(at(dialect, path, &codes::post::BAD_PATTERN, message));
     };
-    let own_helix = !spec.patterns.helix.is_empty();
-    let helix = if own_helix { &spec.patterns.helix } else { &spec.patterns.arc };
-    let has = |items: &[String], word: &str| items.iter().any(|i| i == word);
-    let radius_only = |items: &[String]| !has(items, "i") && !has(items, "cx");
-    for (path, items) in [("patterns.arc", &spec.patterns.arc), ("patterns.helix", helix)] {
-        let path = if own_helix { path } else { "patterns.arc" };
-        let all = |words: [&str; 2]| words.iter().all(|w| has(items, w));
-        if !all(["x", "y"]) && !has(items, "sweep") {
-            say(
-                path,
-                "the pattern says neither where an arc ends (`x`, `y`) nor how far it turns (`sweep`)".into(),
-            );
-        }
-        if !all(["i", "j"]) && !all(["cx", "cy"]) && !has(items, "radius") {
-            say(path, "the pattern has no centre (`i`, `j` or `cx`, `cy`) and no `radius`".into());
-        }
-        if radius_only(items) && spec.arcs.full_circle != FullCircleWords::Split {
-            say(path, "a radius alone is no full circle: `arcs.full-circle` must be \"split\"".into());
-        }
-        let third = if has(items, "cx") { "cz" } else { "k" };
-        let others = spec.arcs.planes.iter().any(|p| p != "xy");
-        if others && !radius_only(items) && !has(items, third) {
-            say(path, format!("arcs are claimed for other planes than XY, and the pattern has no `{third}`"));
-        }
-        if others && !has(items, "plane") && !has(items, "axis") {
-            say(path, "arcs are claimed for several planes, and the pattern has no `plane`".into());
+    let patterns = &spec.patterns;
+    let helix = if patterns.helix.is_empty() { &patterns.arc } else { &patterns.helix };
+    let helix_path = if patterns.helix.is_empty() { "patterns.arc" } else { "patterns.helix" };
+    let mut claimed: Vec<(&str, &[String], [usize; 2])> = vec![("patterns.arc", &patterns.arc, [0, 1])];
+    if helix_path != "patterns.arc" {
+        claimed.push((helix_path, helix, [0, 1]));
+    }
+    let others = [
+        ("zx", "patterns.arc-zx", &patterns.arc_zx, [0, 2]),
+        ("yz", "patterns.arc-yz", &patterns.arc_yz, [1, 2]),
+    ];
+    let mut shared = false;
+    for (_, path, own, axes) in others.into_iter().filter(|o| has(&spec.arcs.planes, o.0)) {
+        let inherits = own.is_empty();
+        claimed.push(if inherits { ("patterns.arc", &patterns.arc, axes) } else { (path, own, axes) });
+        shared |= inherits;
+    }
+    for (path, items, axes) in claimed {
+        for problem in arc_problems(items, axes, spec.arcs.full_circle) {
+            say(path, problem);
         }
     }
-    if spec.arcs.helix && !has(helix, "z") {
+    if shared && !has(&patterns.arc, "plane") && !has(&patterns.arc, "axis") {
         say(
-            if own_helix { "patterns.helix" } else { "patterns.arc" },
-            "helices are claimed, and the pattern has no `z`".into(),
+            "patterns.arc",
+            "arcs are claimed for several planes, and the pattern has no `plane`; `patterns.arc-zx` and `patterns.arc-yz` spell them otherwise".into(),
         );
+    }
+    if spec.arcs.helix && !has(helix, "z") {
+        say(helix_path, "helices are claimed, and the pattern has no `z`".into());
     }
     if !has(&spec.arcs.planes, "xy") {
         say("arcs.planes", "there are arcs, but none in the XY plane".into());
     }
+    // One message for a pattern that several planes share.
+    errors.dedup_by(|a, b| a.message == b.message && a.primary == b.primary);
+}
+
+fn has(items: &[String], word: &str) -> bool {
+    items.iter().any(|i| i == word)
+}
+
+/// What a pattern of arcs in the plane of two axes (0 X, 1 Y, 2 Z) leaves unsaid.
+fn arc_problems(items: &[String], axes: [usize; 2], circles: FullCircleWords) -> Vec<String> {
+    let both = |words: [&'static str; 3]| axes.iter().all(|axis| has(items, words[*axis]));
+    let listed = |words: [&'static str; 3]| format!("`{}`, `{}`", words[axes[0]], words[axes[1]]);
+    const ENDS: [&str; 3] = ["x", "y", "z"];
+    const OFFSETS: [&str; 3] = ["i", "j", "k"];
+    const CENTRES: [&str; 3] = ["cx", "cy", "cz"];
+    let mut problems = Vec::new();
+    if !both(ENDS) && !has(items, "sweep") {
+        problems.push(format!(
+            "the pattern says neither where an arc ends ({}) nor how far it turns (`sweep`)",
+            listed(ENDS)
+        ));
+    }
+    let between = axes != [0, 1] && both(super::capabilities::BETWEEN);
+    let centre = both(OFFSETS) || both(CENTRES);
+    if !(centre || between || has(items, "radius")) {
+        let (offsets, centres) = (listed(OFFSETS), listed(CENTRES));
+        problems.push(format!("the pattern has no centre ({offsets} or {centres}) and no `radius`"));
+    }
+    if !(centre || between) && has(items, "radius") && circles != FullCircleWords::Split {
+        problems.push("a radius alone is no full circle: `arcs.full-circle` must be \"split\"".into());
+    }
+    problems
 }
 
 fn check_item(dialect: &Dialect, place: Place, item: &str) -> Option<String> {
@@ -270,9 +301,11 @@ fn check_decimals(dialect: &Dialect, errors: &mut Vec<Diagnostic>) {
             "y" | "z" => decimals(word) != linear,
             "j" | "k" => decimals(word) != decimals("i"),
             "cx" | "cy" | "cz" => decimals(word) != decimals("i").max(linear),
+            "mx" | "my" | "mz" => decimals(word) != linear,
             _ => decimals(word) < linear,
         };
-        for word in ["y", "z", "i", "j", "k", "cx", "cy", "cz", "radius"].iter().filter(bad) {
+        for word in ["y", "z", "i", "j", "k", "cx", "cy", "cz", "mx", "my", "mz", "radius"].iter().filter(bad)
+        {
             let path = format!("words.{word}.decimals");
             let path = if tree::find(&dialect.tree, &path).is_some() { &path } else { "words.x.decimals" };
             let message = format!(

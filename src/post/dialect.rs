@@ -76,7 +76,7 @@ impl Dialect {
 }
 
 /// Words on the grid of the linear axes.
-const LINEAR_WORDS: [&str; 10] = ["x", "y", "z", "i", "j", "k", "cx", "cy", "cz", "radius"];
+const LINEAR_WORDS: [&str; 13] = ["x", "y", "z", "i", "j", "k", "cx", "cy", "cz", "mx", "my", "mz", "radius"];
 
 impl Spec {
     /// Decimals of a word in programs in `unit`; 0 where there is no such word.

@@ -8,7 +8,7 @@ use super::table::{
 };
 use super::writer::{Writer, split_feed};
 use crate::target::number;
-use crate::target::{Motion, Plane, Position, axes};
+use crate::target::{GridArc, Motion, Plane, Position, axes};
 
 const ALL_AXES: u8 = axes::X | axes::Y | axes::Z | axes::ROTARY;
 
@@ -80,7 +80,7 @@ impl Writer<'_> {
         let (ends, starts) = (linear(to), linear(self.position));
         let [first, second, third] = PLANE_AXES[plane];
         MotionBlock {
-            pattern: if ends[third] == starts[third] { ARC_PATTERN } else { HELIX_PATTERN },
+            pattern: if ends[third] == starts[third] { ARC_PATTERN + plane } else { HELIX_PATTERN },
             code,
             to,
             axes: ALL_AXES,
@@ -148,6 +148,10 @@ impl Writer<'_> {
                 // No pattern of motion holds it.
                 Item::Code => {}
             }
+        }
+        // Text in the place of a motion code leaves another one in force.
+        if block.pattern >= ARC_PATTERN && !pattern.contains(&Item::Motion) {
+            self.state.motion = None;
         }
         self.table.patterns[block.pattern] = pattern;
     }
@@ -235,6 +239,9 @@ impl Writer<'_> {
             Slot::Cx => self.centre(slot, 0, block),
             Slot::Cy => self.centre(slot, 1, block),
             Slot::Cz => self.centre(slot, 2, block),
+            Slot::Mx => self.middle(slot, 0, block),
+            Slot::My => self.middle(slot, 1, block),
+            Slot::Mz => self.middle(slot, 2, block),
             Slot::Radius => self.radius(block),
             Slot::Sweep => self.sweep(block),
             Slot::Feed => self.feed(block),
@@ -243,10 +250,7 @@ impl Writer<'_> {
 
     #[inline]
     fn axis(&mut self, slot: Slot, index: usize, value: i64, block: &MotionBlock) {
-        let in_plane = block.pattern >= ARC_PATTERN
-            && block.pattern != HOLE_PATTERN
-            && index != PLANE_AXES[block.plane][2]
-            && index < 3;
+        let in_plane = block.pattern >= ARC_PATTERN && index != PLANE_AXES[block.plane][2] && index < 3;
         let print = if block.circle && in_plane {
             match self.table.full_circle {
                 FullCircleWords::Bare | FullCircleWords::Split => false,
@@ -291,6 +295,24 @@ impl Writer<'_> {
             0
         };
         self.slot(slot, start + offset);
+    }
+
+    /// The place halfway in program coordinates; along the third axis, where the arc starts.
+    fn middle(&mut self, slot: Slot, axis: usize, block: &MotionBlock) {
+        let [first, second, _] = PLANE_AXES[block.plane];
+        let (ends, starts) = (linear(block.to), linear(self.position));
+        let flat = |p: [i64; 3]| [p[first], p[second]];
+        let (centre, clockwise) = (block.centre, block.code == ARC_CW);
+        let arc = GridArc { start: flat(starts), to: flat(ends), centre, clockwise };
+        let between = arc.middle(self.table.centre_per_linear);
+        let value = if axis == first {
+            between[0]
+        } else if axis == second {
+            between[1]
+        } else {
+            starts[axis]
+        };
+        self.slot(slot, value);
     }
 
     /// End minus start in the plane, in centre steps.

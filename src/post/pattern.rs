@@ -18,13 +18,16 @@ pub enum Slot {
     Cx,
     Cy,
     Cz,
+    Mx,
+    My,
+    Mz,
     Radius,
     Sweep,
     Feed,
 }
 
 /// Number of [`Slot`]s.
-pub const SLOTS: usize = 13;
+pub const SLOTS: usize = 16;
 
 impl Slot {
     /// All, in the order of their numbers.
@@ -39,6 +42,9 @@ impl Slot {
         Slot::Cx,
         Slot::Cy,
         Slot::Cz,
+        Slot::Mx,
+        Slot::My,
+        Slot::Mz,
         Slot::Radius,
         Slot::Sweep,
         Slot::Feed,
@@ -57,6 +63,9 @@ impl Slot {
             Slot::Cx => "cx",
             Slot::Cy => "cy",
             Slot::Cz => "cz",
+            Slot::Mx => "mx",
+            Slot::My => "my",
+            Slot::Mz => "mz",
             Slot::Radius => "radius",
             Slot::Sweep => "sweep",
             Slot::Feed => "feed",
@@ -166,6 +175,9 @@ impl Place {
                 "cx",
                 "cy",
                 "cz",
+                "mx",
+                "my",
+                "mz",
                 "radius",
                 "sweep",
                 "feed",

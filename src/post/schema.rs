@@ -205,6 +205,12 @@ const PATTERNS: &[Key] = &[
     ),
     key("line", Shape::TextList, "straight at feed"),
     key("arc", Shape::TextList, "arc, and helix unless that has its own pattern"),
+    key(
+        "arc-zx",
+        Shape::TextList,
+        "arc of the ZX plane, where it is spelled unlike one of the XY plane; there are no helices then",
+    ),
+    key("arc-yz", Shape::TextList, "the same for the YZ plane"),
     key("helix", Shape::TextList, "helix, where it is spelled unlike an arc"),
     key("hole", Shape::TextList, "a hole of a drilling cycle"),
 ];

@@ -208,6 +208,10 @@ pub struct Patterns {
     pub line: Vec<String>,
     pub arc: Vec<String>,
     #[serde(default)]
+    pub arc_zx: Vec<String>,
+    #[serde(default)]
+    pub arc_yz: Vec<String>,
+    #[serde(default)]
     pub helix: Vec<String>,
     #[serde(default)]
     pub hole: Vec<String>,

@@ -31,10 +31,11 @@ pub(super) const ARC_CCW: usize = 3;
 /// Patterns as indices.
 pub(super) const RAPID_PATTERN: usize = 0;
 pub(super) const LINE_PATTERN: usize = 1;
-pub(super) const ARC_PATTERN: usize = 2;
-pub(super) const HELIX_PATTERN: usize = 3;
-pub(super) const HOLE_PATTERN: usize = 4;
-const PATTERNS: usize = 5;
+pub(super) const HOLE_PATTERN: usize = 2;
+/// The first of those of arcs: in XY, ZX and YZ.
+pub(super) const ARC_PATTERN: usize = 3;
+pub(super) const HELIX_PATTERN: usize = 6;
+const PATTERNS: usize = 7;
 
 /// Everything a motion block needs.
 #[derive(Debug, Clone)]
@@ -89,7 +90,7 @@ impl MotionTable {
                 .map(|name| word(spec, name, spec.modal.feed, unit)),
             axis: word(spec, "axis", false, unit),
             says_end: core::array::from_fn(|i| {
-                i <= LINE_PATTERN || patterns[i].contains(&Item::Word(Slot::X))
+                i <= LINE_PATTERN || [Slot::X, Slot::Y].iter().any(|s| patterns[i].contains(&Item::Word(*s)))
             }),
             patterns,
             codes: [&codes.rapid, &codes.line, &codes.arc_cw, &codes.arc_ccw].map(|c| bytes(c)),
@@ -114,8 +115,11 @@ impl MotionTable {
 
 fn patterns(spec: &Spec) -> [Box<[Item]>; PATTERNS] {
     let patterns = &spec.patterns;
-    let helix = if patterns.helix.is_empty() { &patterns.arc } else { &patterns.helix };
-    [&patterns.rapid, &patterns.line, &patterns.arc, helix, &patterns.hole].map(|p| Item::all(p))
+    let arc = &patterns.arc;
+    let own = |pattern| if Vec::is_empty(pattern) { arc } else { pattern };
+    let arcs = [arc, own(&patterns.arc_zx), own(&patterns.arc_yz), own(&patterns.helix)];
+    let [xy, zx, yz, helix] = arcs;
+    [&patterns.rapid, &patterns.line, &patterns.hole, xy, zx, yz, helix].map(|p| Item::all(p))
 }
 
 fn rapid_feed(spec: &Spec, capabilities: &Capabilities) -> Option<i64> {
@@ -134,7 +138,7 @@ fn axis_modal(spec: &Spec, slot: Slot) -> bool {
     match slot {
         Slot::X | Slot::Y | Slot::Z | Slot::Rotary => spec.modal.axes,
         Slot::Feed => spec.modal.feed,
-        Slot::I | Slot::J | Slot::K | Slot::Cx | Slot::Cy | Slot::Cz | Slot::Radius | Slot::Sweep => false,
+        _ => false,
     }
 }
 

@@ -1,8 +1,50 @@
-//! Curves that controls draw: lengths, for feeds and times, and points of NURBS.
+//! Curves that controls draw: arcs of other planes, lengths, for feeds and times, and points of NURBS.
 
-use super::{SpaceCurve, TracePath};
-use crate::geom::{Point2, Point3};
+use super::{SpaceCurve, Tilted, TracePath};
+use crate::geom::{Point2, Point3, Vec3};
 use crate::math::hypot;
+
+/// Working planes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Plane {
+    /// G17.
+    Xy,
+    /// G18.
+    Zx,
+    /// G19.
+    Yz,
+}
+
+impl Plane {
+    /// Its first and second axis, and the one across it, by index.
+    pub(super) fn axes(self) -> [usize; 3] {
+        match self {
+            Plane::Xy => [0, 1, 2],
+            Plane::Zx => [2, 0, 1],
+            Plane::Yz => [1, 2, 0],
+        }
+    }
+
+    /// A turn in the plane, from and to a level across it.
+    pub(super) fn turn(
+        self,
+        [start, end, centre]: [Point2; 3],
+        (from, to): (f64, f64),
+        sweep: f64,
+    ) -> Tilted {
+        let [first, second, across] = self.axes();
+        let space = |p: Point2, level: f64| {
+            let mut q = Point3::origin();
+            q[first] = p.x;
+            q[second] = p.y;
+            q[across] = level;
+            q
+        };
+        let mut axis = Vec3::zeros();
+        axis[across] = 1.0;
+        Tilted { from: space(start, from), to: space(end, to), centre: space(centre, from), axis, sweep }
+    }
+}
 
 /// Nodes and weights of the five-point Gauss rule on [0, 1].
 const GAUSS: [(f64, f64); 5] = [

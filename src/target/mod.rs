@@ -7,7 +7,7 @@
 //!   check known, on the integers.
 //! - Positions are absolute; modality, word order and spelling are the writer's.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::arena::Handle;
 use crate::geom::Side;
@@ -16,8 +16,11 @@ use crate::ir::CycleName;
 use crate::ir::{Band, Coolant, Origin, Spindle, Tool};
 use crate::units::LengthUnit;
 
+mod arc;
 pub mod number;
 pub mod print;
+
+pub use arc::GridArc;
 
 /// The output grid: what one integer step means.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -95,7 +98,7 @@ pub struct Capabilities {
     /// Circular interpolation in the XY plane.
     pub arcs: bool,
     /// Planes of circular interpolation; XY is among them when there are arcs.
-    pub planes: BTreeSet<Plane>,
+    pub planes: BTreeMap<Plane, PlaneArcs>,
     /// Drilling cycles that are kept; others become moves.
     pub cycles: BTreeSet<CycleName>,
     /// Those of them that take a dwell, besides `Dwell` and `BoreDwell`.
@@ -112,8 +115,6 @@ pub struct Capabilities {
     pub radius_range: (f64, f64),
     /// Largest |start radius − end radius| in printed numbers, mm.
     pub radius_tolerance: f64,
-    /// Third axis may move in an arc block.
-    pub helix: bool,
     /// NURBS form, if any.
     pub nurbs: Option<NurbsForm>,
     /// NURBS may change Z.
@@ -146,6 +147,29 @@ pub struct Capabilities {
     pub work_offset: Option<u16>,
     /// Slowest and fastest spindle speed, rev/min, where declared.
     pub spindle: Option<(f64, f64)>,
+}
+
+/// The arcs of a plane.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct PlaneArcs {
+    /// The third axis may move in an arc block.
+    pub helix: bool,
+    /// The control is told a place between the ends, not the centre.
+    pub by_middle: bool,
+}
+
+impl Capabilities {
+    /// How full circles are written in a plane.
+    #[must_use]
+    pub fn full_circle(&self, plane: Plane) -> FullCircle {
+        if self.by_middle(plane) { FullCircle::Split(2) } else { self.full_circle }
+    }
+
+    /// Whether arcs of a plane are told by a place between their ends.
+    #[must_use]
+    pub fn by_middle(&self, plane: Plane) -> bool {
+        self.planes.get(&plane).is_some_and(|arcs| arcs.by_middle)
+    }
 }
 
 /// Largest printed magnitudes of words, in their steps.

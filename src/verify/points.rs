@@ -7,7 +7,7 @@ use crate::diag::codes::verification as codes;
 use crate::geom::{Point2, Point3, Vec2};
 use crate::math::{DEG, TAU};
 use crate::readback::TracePath;
-use crate::target::{BlockKind, Motion, Plane, Position};
+use crate::target::{BlockKind, GridArc, Motion, Plane, Position};
 
 /// The move against the declared travel of X, Y and Z.
 pub(super) fn travel(case: &Case<'_>, placed: &Placed<'_>) -> Vec<Finding> {
@@ -235,17 +235,32 @@ fn wrong_turn(wanted: Option<f64>, placed: &Placed<'_>) -> Option<Text> {
     })
 }
 
-/// An arc as the control draws it: its plane's third axis, centre minus start in the plane, and sense.
-fn drawn(path: &TracePath) -> Option<(usize, Vec2, bool)> {
+/// An arc as the control draws it.
+struct Drawn {
+    plane: Plane,
+    /// In the plane, mm.
+    start: Point2,
+    /// Centre minus start, mm.
+    offset: Vec2,
+    clockwise: bool,
+}
+
+fn drawn(path: &TracePath) -> Option<Drawn> {
     match path {
-        TracePath::Arc { from, centre, sweep, .. } => Some((2, centre - from, *sweep < 0.0)),
+        TracePath::Arc { from, centre, sweep, .. } => {
+            Some(Drawn { plane: Plane::Xy, start: *from, offset: centre - from, clockwise: *sweep < 0.0 })
+        }
         TracePath::Tilted(arc) => {
             let offset = arc.centre - arc.from;
             let along = |axis: usize| arc.axis[axis].abs() > 0.5;
-            let [first, second, third] =
-                [Plane::Zx, Plane::Yz, Plane::Xy].map(Plane::axes).into_iter().find(|a| along(a[2]))?;
-            let clockwise = (arc.sweep < 0.0) == (arc.axis[third] > 0.0);
-            Some((third, Vec2::new(offset[first], offset[second]), clockwise))
+            let plane = [Plane::Zx, Plane::Yz, Plane::Xy].into_iter().find(|p| along(p.axes()[2]))?;
+            let [first, second, third] = plane.axes();
+            Some(Drawn {
+                plane,
+                start: Point2::new(arc.from[first], arc.from[second]),
+                offset: Vec2::new(offset[first], offset[second]),
+                clockwise: (arc.sweep < 0.0) == (arc.axis[third] > 0.0),
+            })
         }
         _ => None,
     }
@@ -258,13 +273,14 @@ fn wrong_arc(case: &Case<'_>, motion: &Motion, placed: &Placed<'_>) -> Option<Te
     let before = case.moves.get(..=placed.index).unwrap_or_default();
     let of_block = before.iter().rev().take_while(|p| p.block == placed.block);
     let drawn = of_block.filter_map(|p| drawn(&p.cut.path)).last();
-    let Motion::Arc { centre, plane, clockwise, .. } = motion else {
+    let Motion::Arc { to, centre, plane, clockwise, .. } = motion else {
         return drawn.map(|_| Text::default().words("an arc in place of a line or curve"));
     };
-    let Some((third, offset, sense)) = drawn else {
+    let Some(as_drawn) = drawn else {
         return Some(Text::default().words("no arc where the lowered program has one"));
     };
-    if third != plane.axes()[2] {
+    let Drawn { plane: own, offset, clockwise: sense, .. } = as_drawn;
+    if own != *plane {
         return Some(Text::default().words("an arc in another plane than lowered"));
     }
     if sense != *clockwise {
@@ -273,7 +289,7 @@ fn wrong_arc(case: &Case<'_>, motion: &Motion, placed: &Placed<'_>) -> Option<Te
         return Some(Text::default().words(text));
     }
     let step = case.target.capabilities.grid.centre_step();
-    let wanted = Vec2::new(centre[0] as f64, centre[1] as f64) * step;
+    let wanted = centre_offset(case, &as_drawn, *to, (*centre, *clockwise));
     // With a table the offsets may be turned; their length stays.
     let off = if case.target.capabilities.rotary.is_some() {
         (offset.norm() - wanted.norm()).abs()
@@ -283,6 +299,27 @@ fn wrong_arc(case: &Case<'_>, motion: &Motion, placed: &Placed<'_>) -> Option<Te
     // Where a block starts may follow from an angle that the block before has.
     let most = 0.25 * step + ACCURACY;
     (!(off <= most)).then(|| Text::default().words("an arc whose centre is off by ").length(off))
+}
+
+/// The lowered arc's centre minus its start, mm; where a place between tells it, as that draws it.
+#[allow(clippy::cast_possible_truncation, clippy::cast_precision_loss)]
+fn centre_offset(
+    case: &Case<'_>,
+    drawn: &Drawn,
+    to: Position,
+    (centre, clockwise): ([i64; 2], bool),
+) -> Vec2 {
+    let grid = &case.target.capabilities.grid;
+    let (linear, step) = (grid.linear_step(), grid.centre_step());
+    if !case.target.capabilities.by_middle(drawn.plane) {
+        return Vec2::new(centre[0] as f64, centre[1] as f64) * step;
+    }
+    let [first, second, _] = drawn.plane.axes();
+    let ends = [to.x, to.y, to.z];
+    let start = [drawn.start.x, drawn.start.y].map(|v| (v / linear).round() as i64);
+    let arc = GridArc { start, to: [ends[first], ends[second]], centre, clockwise };
+    let offset = arc.centre_by_middle((linear / step).round() as i64);
+    offset.map(|c| Vec2::new(c[0], c[1]) * linear).unwrap_or_default()
 }
 
 #[allow(clippy::cast_precision_loss)]

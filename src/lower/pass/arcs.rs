@@ -11,9 +11,9 @@ use super::{Chain, Chart, Step, Task};
 use crate::cl::Circle;
 use crate::geom::surface::{Contact, Guide};
 use crate::geom::{Point2, Point3, Vec2, Vec3, cross};
-use crate::lower::arc::{GridArc, Legal, centre_per_linear, legalise};
+use crate::lower::arc::{Legal, centre_per_linear, legalise};
 use crate::lower::circle::{self, Helix};
-use crate::target::{Capabilities, Plane};
+use crate::target::{Capabilities, GridArc, Plane};
 
 /// Parts of the band, on either side, that are left to rounding: tried in this order, steps of the grid.
 const MARGINS: [f64; 4] = [0.4, 0.8, 1.6, 3.2];
@@ -253,7 +253,7 @@ impl<'a> Fitter<'a> {
         }
         let arc = self.grid_arc(from, to, curvature)?;
         let mut at = *from;
-        for part in legalise(arc, self.capabilities).ok()? {
+        for part in legalise(arc, self.plane, self.capabilities).ok()? {
             let (step, held) = match part {
                 Legal::Line(end) => {
                     let to = self.placed(end, from);
@@ -310,8 +310,15 @@ impl<'a> Fitter<'a> {
         let step = self.capabilities.grid.centre_step();
         let [first, second, third] = self.plane.axes();
         let (mut centre, mut axis) = (from.centre, Vec3::zeros());
-        centre[first] += arc.centre[0] as f64 * step;
-        centre[second] += arc.centre[1] as f64 * step;
+        let scale = centre_per_linear(self.capabilities);
+        let hub = if self.capabilities.by_middle(self.plane) {
+            let Some(hub) = arc.centre_by_middle(scale) else { return false };
+            hub.map(|c| c * self.task.lattice.step)
+        } else {
+            arc.centre.map(|c| c as f64 * step)
+        };
+        centre[first] += hub[0];
+        centre[second] += hub[1];
         axis[third] = if arc.clockwise { -1.0 } else { 1.0 };
         let circle = Circle { to: self.task.lattice.centre(to), centre, axis, turns: 0, tolerance: 0.0 };
         Helix::new(from.centre, &circle).is_some_and(|helix| self.task.follows(from, &helix))

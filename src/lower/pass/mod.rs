@@ -170,7 +170,7 @@ fn fit(pass: &Pass, capabilities: &Capabilities) -> Result<Chain, Trouble> {
 /// The plane in which a pass could be arcs, where the control has none in it.
 fn no_arcs(pass: &Pass, capabilities: &Capabilities) -> Option<Plane> {
     let plane = arcs::plane_of(&pass.track.guide)?;
-    (!(capabilities.arcs && capabilities.planes.contains(&plane))).then_some(plane)
+    (!(capabilities.arcs && capabilities.planes.contains_key(&plane))).then_some(plane)
 }
 
 impl Task<'_> {

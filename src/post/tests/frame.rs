@@ -43,7 +43,7 @@ fn tour(name: &str, unit: LengthUnit) -> String {
 fn arcs(sheet: Sheet, step: i64) -> Sheet {
     let centre = step * 10i64.pow(u32::from(sheet.program.capabilities.grid.centre_decimals))
         / 10i64.pow(u32::from(sheet.program.capabilities.grid.linear_decimals));
-    let planes: Vec<Plane> = sheet.program.capabilities.planes.iter().copied().collect();
+    let planes: Vec<Plane> = sheet.program.capabilities.planes.keys().copied().collect();
     let feed = sheet.minute();
     let mut sheet = sheet
         .arc(10 * step, 0, [-10 * centre, 0], false)

@@ -4,8 +4,10 @@
 //! block only, tool lengths come with the tool, and cycles are defined first and called at positions. Path tolerance: the
 //! machine's own one is not counted, that of cycle 32 is.
 
+use super::curve::Plane;
 use super::out::Out;
 use super::{EventKind, FeedMode, Follow, MachineSetup, Washing};
+use crate::geom::Point2;
 
 mod blocks;
 mod cycle;
@@ -50,7 +52,8 @@ struct State {
     known: [bool; 4],
     parked: bool,
     inch: bool,
-    pole: Option<[f64; 2]>,
+    /// The pole: its plane, and where it is there.
+    pole: Option<(Plane, Point2)>,
     /// mm/min, or mm/rev under M136.
     feed: Option<f64>,
     per_revolution: bool,

@@ -4,7 +4,7 @@ use super::Reader;
 use super::blocks::Asked;
 use crate::geom::{Point2, Vec2, cross, left};
 use crate::math::{DEG, TAU, atan2, hypot, sin_cos};
-use crate::readback::curve::along;
+use crate::readback::curve::{Plane, along};
 use crate::readback::out::Out;
 use crate::readback::{EventKind, FeedMode, Follow, TraceMove, TracePath};
 
@@ -78,35 +78,55 @@ impl Reader<'_> {
     }
 
     /// `CC`: the pole; without coordinates where the tool is.
+    ///
+    /// With Z it lies in the ZX or YZ plane.
     pub(super) fn pole<S: Follow>(&mut self, asked: &Asked, out: &mut Out<'_, S>) {
-        if asked.axes[2].is_some() || asked.rapid || asked.feed.is_some() {
-            out.fault("a pole has only X and Y");
+        if asked.rapid || asked.feed.is_some() {
+            out.fault("a pole has only coordinates");
         }
-        let to = self.target(asked, out);
         let named = |axis: usize| asked.axes[axis].is_some();
-        if !(named(0) || named(1) || self.state.known[0] && self.state.known[1]) {
+        let plane = match [named(0), named(1), named(2)] {
+            [_, _, false] => Plane::Xy,
+            [true, false, true] => Plane::Zx,
+            [false, true, true] => Plane::Yz,
+            _ => {
+                out.fault("a pole has two coordinates");
+                return;
+            }
+        };
+        let to = self.target(asked, out);
+        let [first, second, _] = plane.axes();
+        let none = !(named(first) || named(second));
+        if none && !(self.state.known[first] && self.state.known[second]) {
             out.fault("CC at a position that is not known");
         }
-        let kept = self.state.pole.unwrap_or([to[0], to[1]]);
-        let pick = |axis: usize| if named(axis) || !(named(0) || named(1)) { to[axis] } else { kept[axis] };
-        self.state.pole = Some([pick(0), pick(1)]);
+        let here = place_in(plane, &to);
+        let kept = self.state.pole.filter(|(p, _)| *p == plane).map_or(here, |(_, pole)| pole);
+        let x = if named(first) || none { here.x } else { kept.x };
+        let y = if named(second) || none { here.y } else { kept.y };
+        self.state.pole = Some((plane, Point2::new(x, y)));
     }
 
     /// `C`: about the pole to an end point.
     pub(super) fn circle<S: Follow>(&mut self, asked: &Asked, out: &mut Out<'_, S>) {
         let to = self.target(asked, out);
         let Some(clockwise) = self.circle_allowed(asked, out) else { return self.arrive(to, asked) };
-        let Some([x, y]) = self.state.pole else {
+        let Some((plane, centre)) = self.state.pole else {
             out.fault("C without a pole CC");
             return self.arrive(to, asked);
         };
-        if asked.axes[2].is_some() {
-            out.fault("Z in a C block: a helix is CP with IPA and Z");
+        let across = plane.axes()[2];
+        if asked.axes[across].is_some() {
+            let axis = ["X", "Y", "Z"][across];
+            out.fault(format!("{axis} in a C block about a pole in another plane: a helix is CP with IPA"));
         }
-        let (start, end, centre) = (self.here(), Point2::new(to[0], to[1]), Point2::new(x, y));
+        if !self.stands_in(plane, out) {
+            return self.arrive(to, asked);
+        }
+        let (start, end) = (place_in(plane, &self.state.position), place_in(plane, &to));
         if self.fits(start, end, centre, out) {
             let sweep = sweep(start - centre, end - centre, clockwise);
-            self.arc(centre, sweep, to, asked, out);
+            self.arc((plane, centre), sweep, to, asked, out);
         } else {
             self.arrive(to, asked);
         }
@@ -116,6 +136,12 @@ impl Reader<'_> {
     pub(super) fn circle_by_radius<S: Follow>(&mut self, asked: &Asked, out: &mut Out<'_, S>) {
         let to = self.target(asked, out);
         let Some(clockwise) = self.circle_allowed(asked, out) else { return self.arrive(to, asked) };
+        if asked.axes[2].is_some() {
+            out.fault("Z in a CR block is not followed by this reader");
+        }
+        if !self.stands_in(Plane::Xy, out) {
+            return self.arrive(to, asked);
+        }
         let (start, end) = (self.here(), Point2::new(to[0], to[1]));
         let chord = end - start;
         let (length, u) = (chord.norm(), self.unit());
@@ -136,21 +162,28 @@ impl Reader<'_> {
         let side = if clockwise == (radius > 0.0) { -1.0 } else { 1.0 };
         let centre = start + chord / 2.0 + left(chord / length) * (side * height);
         let sweep = sweep(start - centre, end - centre, clockwise);
-        self.arc(centre, sweep, to, asked, out);
+        self.arc((Plane::Xy, centre), sweep, to, asked, out);
     }
 
     /// `CP`: about the pole by an angle, with Z a helix.
     pub(super) fn circle_by_angle<S: Follow>(&mut self, asked: &Asked, out: &mut Out<'_, S>) {
         let mut to = self.target(asked, out);
         let Some(clockwise) = self.circle_allowed(asked, out) else { return self.arrive(to, asked) };
-        let (Some([x, y]), Some((angle, incremental))) = (self.state.pole, asked.polar) else {
+        let (Some((plane, centre)), Some((angle, incremental))) = (self.state.pole, asked.polar) else {
             out.fault("CP without a pole CC or without IPA");
             return self.arrive(to, asked);
         };
         if asked.axes[0].is_some() || asked.axes[1].is_some() {
             out.fault("X or Y in a CP block");
         }
-        let (start, centre) = (self.here(), Point2::new(x, y));
+        if plane != Plane::Xy {
+            out.fault("CP about a pole with Z is not followed by this reader");
+            return self.arrive(to, asked);
+        }
+        if !self.stands_in(Plane::Xy, out) {
+            return self.arrive(to, asked);
+        }
+        let start = self.here();
         let arm = start - centre;
         if arm.norm() <= SMALLEST {
             out.fault("CP from the pole");
@@ -171,7 +204,7 @@ impl Reader<'_> {
         let (s, c) = sin_cos(swept);
         let end = centre + Vec2::new(c * arm.x - s * arm.y, s * arm.x + c * arm.y);
         (to[0], to[1]) = (end.x, end.y);
-        self.arc(centre, swept, to, asked, out);
+        self.arc((Plane::Xy, centre), swept, to, asked, out);
     }
 
     fn circle_allowed<S: Follow>(&mut self, asked: &Asked, out: &mut Out<'_, S>) -> Option<bool> {
@@ -185,14 +218,20 @@ impl Reader<'_> {
             out.fault("the rotary axis moves in a circle");
             return None;
         }
-        if !(self.state.known[0] && self.state.known[1]) {
-            out.fault("a circle from a position that is not known");
-            return None;
-        }
         if !self.feed_is_there(out) || asked.rapid {
             return None;
         }
         asked.clockwise
+    }
+
+    /// Whether it is known where in the plane the tool is.
+    fn stands_in<S: Follow>(&self, plane: Plane, out: &mut Out<'_, S>) -> bool {
+        let [first, second, _] = plane.axes();
+        let known = self.state.known[first] && self.state.known[second];
+        if !known {
+            out.fault("a circle from a position that is not known");
+        }
+        known
     }
 
     /// Start and end lie on the circle.
@@ -217,13 +256,23 @@ impl Reader<'_> {
 
     fn arc<S: Follow>(
         &mut self,
-        centre: Point2,
+        (plane, centre): (Plane, Point2),
         sweep: f64,
         to: [f64; 4],
         asked: &Asked,
         out: &mut Out<'_, S>,
     ) {
         let from = self.state.position;
+        if plane != Plane::Xy {
+            let across = plane.axes()[2];
+            if from[ROTARY] != 0.0 || !self.state.known[across] {
+                out.fault("a circle with Z on a turned table, or from a position that is not known");
+                return self.arrive(to, asked);
+            }
+            let places = [place_in(plane, &from), place_in(plane, &to), centre];
+            let path = TracePath::Tilted(plane.turn(places, (from[across], to[across]), sweep));
+            return self.emit(path, from, to, asked, out);
+        }
         let middle = self.in_part(&[centre.x, centre.y, 0.0, from[ROTARY]]);
         let path = TracePath::Arc { from: self.in_part(&from), to: self.in_part(&to), centre: middle, sweep };
         self.emit(path, from, to, asked, out);
@@ -324,6 +373,12 @@ impl Reader<'_> {
         let reference = hypot(linear, to[ROTARY] - from[ROTARY]);
         Some(per_minute * along(path, to[2] - from[2]) / reference)
     }
+}
+
+/// A position's place in a plane.
+fn place_in(plane: Plane, at: &[f64; 4]) -> Point2 {
+    let [first, second, _] = plane.axes();
+    Point2::new(at[first], at[second])
 }
 
 /// Signed sweep from one radius vector to another; a whole circle when they agree.

@@ -1,14 +1,14 @@
 //! Circular interpolation: centre, sweep and the controls' own checks.
 
 use super::block::{Block, bit};
-use super::codes::Plane;
 use super::machine::Machine;
 use super::motion::{ROTARY, Target};
 use super::rules::ArcEnd;
-use crate::geom::{Point2, Point3, Vec2, Vec3, cross, left};
+use crate::geom::{Point2, Vec2, cross, left};
 use crate::math::{TAU, atan2};
+use crate::readback::curve::Plane;
 use crate::readback::out::Out;
-use crate::readback::{Follow, Tilted, TracePath};
+use crate::readback::{Follow, TracePath};
 
 /// An R that misses half the chord by less than this many mm still makes a half circle.
 const HALF_CIRCLE_SLACK: f64 = 1e-6;
@@ -23,19 +23,10 @@ struct Refusal(String);
 /// Letters of the axes.
 const AXES: [u8; 3] = *b"XYZ";
 
-impl Plane {
-    /// Its first and second axis, and the one across it, by index.
-    pub(super) fn axes(self) -> [usize; 3] {
-        match self {
-            Plane::Xy => [0, 1, 2],
-            Plane::Zx => [2, 0, 1],
-            Plane::Yz => [1, 2, 0],
-        }
-    }
-    fn letters(self, of: [u8; 3]) -> [u8; 2] {
-        let [a, b, _] = self.axes();
-        [of[a], of[b]]
-    }
+/// Letters of a plane's two axes.
+fn letters(plane: Plane, of: [u8; 3]) -> [u8; 2] {
+    let [a, b, _] = plane.axes();
+    [of[a], of[b]]
 }
 
 /// An arc in its plane.
@@ -57,10 +48,10 @@ impl Machine<'_> {
         out: &mut Out<'_, S>,
     ) {
         let plane = self.stated_plane(out);
-        let [first, second] = plane.letters(self.rules.arc_offsets);
+        let [first, second] = letters(plane, self.rules.arc_offsets);
         *used |= (self.axis_words() | bit(first) | bit(second) | bit(self.rules.arc_radius)) & block.seen;
         let target = self.target(block, out);
-        let [a, b] = plane.letters(AXES);
+        let [a, b] = letters(plane, AXES);
         if self.rules.arc_needs_end && block.seen & (bit(a) | bit(b)) == 0 {
             let code =
                 if target.any() { "error:32, no axis words in plane" } else { "error:26, no axis words" };
@@ -100,7 +91,7 @@ impl Machine<'_> {
         }
         let at = |p: &[f64; 4]| Point2::new(p[a], p[b]);
         let (start, end) = (at(&self.state.position), at(&target.to));
-        let [first, second] = plane.letters(self.rules.arc_offsets);
+        let [first, second] = letters(plane, self.rules.arc_offsets);
         let offsets = block.has(first) || block.has(second);
         let centre = match self.length(block, self.rules.arc_radius) {
             Some(_) if offsets && !self.rules.radius_wins => return say("R and I J in one arc"),
@@ -160,24 +151,9 @@ impl Machine<'_> {
                 sweep: drawn.sweep,
             };
         }
-        let [a, b, across] = drawn.plane.axes();
-        let space = |p: Point2, level: f64| {
-            let mut q = Point3::origin();
-            q[a] = p.x;
-            q[b] = p.y;
-            q[across] = level;
-            q
-        };
-        let mut axis = Vec3::zeros();
-        axis[across] = 1.0;
-        let level = self.state.position[across];
-        TracePath::Tilted(Tilted {
-            from: space(drawn.start, level),
-            to: space(end, target.to[across]),
-            centre: space(drawn.centre, level),
-            axis,
-            sweep: drawn.sweep,
-        })
+        let [_, _, across] = drawn.plane.axes();
+        let levels = (self.state.position[across], target.to[across]);
+        TracePath::Tilted(drawn.plane.turn([drawn.start, end, drawn.centre], levels, drawn.sweep))
     }
 
     fn centre_by_offsets<S: Follow>(

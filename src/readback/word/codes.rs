@@ -2,17 +2,6 @@
 
 use crate::readback::FeedMode;
 
-/// Working planes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::readback) enum Plane {
-    /// G17.
-    Xy,
-    /// G18.
-    Zx,
-    /// G19.
-    Yz,
-}
-
 /// Motions that stay in force.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::readback) enum Mode {
@@ -33,6 +22,8 @@ pub(in crate::readback) enum Mode {
     NurbsKnots,
     /// BSPLINE: control points with PW follow, until another motion.
     BSpline,
+    /// CIP: a circle through a place between.
+    Through,
     /// A drilling cycle.
     Cycle(CycleKind),
 }
@@ -75,7 +66,7 @@ pub(in crate::readback) enum G {
     /// G4.
     Dwell,
     /// Plane.
-    Plane(Plane),
+    Plane(crate::readback::curve::Plane),
     /// G20/G21.
     Units {
         /// G20.

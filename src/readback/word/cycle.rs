@@ -4,11 +4,12 @@
 //! a hole the cutter goes back to one or the other (G98, G99).
 
 use super::block::{Block, bit};
-use super::codes::{CycleKind, Plane};
+use super::codes::CycleKind;
 use super::machine::Machine;
 use super::motion::{ROTARY, Target};
 use super::rules::Cycles;
 use super::state::Plan;
+use crate::readback::curve::Plane;
 use crate::readback::out::Out;
 use crate::readback::{EventKind, FeedMode, Follow, TracePath};
 

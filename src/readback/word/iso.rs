@@ -1,7 +1,8 @@
 //! Codes that controls share: ISO 6983's own, and those of the dialects that follow RS-274.
 
-use super::codes::{CycleKind, G, M, Mode, Plane};
+use super::codes::{CycleKind, G, M, Mode};
 use crate::readback::FeedMode;
+use crate::readback::curve::Plane;
 
 /// G codes that mean the same on every control of the family, in tenths.
 pub(super) fn g(tenths: u16) -> Option<G> {

@@ -1,13 +1,13 @@
 //! Motions: rapids, lines, spirals of a rotary table, and what they need.
 
 use super::block::{Block, bit, letters};
-use super::codes::{G, Mode, Plane};
+use super::codes::{G, Mode};
 use super::machine::Machine;
 use super::rules::RotaryFeed;
 use super::state::Plan;
 use crate::geom::Point2;
 use crate::math::{DEG, hypot};
-use crate::readback::curve::along;
+use crate::readback::curve::{Plane, along};
 use crate::readback::out::Out;
 use crate::readback::{EventKind, FeedMode, Follow, TraceMove, TracePath};
 
@@ -50,6 +50,10 @@ impl Machine<'_> {
         let axes = self.axis_words() & block.seen & !*used;
         if let Some(mode) = plan.motion {
             self.change_motion(mode);
+        }
+        let between = block.words.as_ref().is_some_and(|w| w.between.iter().any(Option::is_some));
+        if between && self.state.motion != Mode::Through {
+            out.fault("I1=, J1=, K1= without CIP");
         }
         if plan.once == Some(G::Dwell) && axes != 0 {
             return out.fault("axis words in a dwell");
@@ -109,6 +113,7 @@ impl Machine<'_> {
                 }
             }
             Mode::Arc { clockwise } => self.arc(block, clockwise, used, out),
+            Mode::Through => self.through(block, axes, used, out),
             Mode::Cycle(kind) => self.cycle(block, kind, plan, used, out),
             // Blocks of an open curve never come here.
             Mode::NurbsPoints | Mode::NurbsKnots | Mode::BSpline => {}

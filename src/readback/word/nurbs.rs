@@ -1,11 +1,12 @@
 //! NURBS interpolation: LinuxCNC's G5.2/G5.3 and Fanuc's G06.2.
 
 use super::block::{Block, bit};
-use super::codes::{Mode, Plane};
+use super::codes::Mode;
 use super::machine::Machine;
 use super::motion::Target;
 use super::state::Plan;
 use crate::geom::{Point2, Point3};
+use crate::readback::curve::Plane;
 use crate::readback::out::Out;
 use crate::readback::{FeedMode, Follow, SpaceCurve, TracePath};
 

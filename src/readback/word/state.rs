@@ -1,7 +1,8 @@
 //! The control's modal state, and what a block asks to change of it.
 
-use super::codes::{G, M, Mode, Plane};
+use super::codes::{G, M, Mode};
 use super::rules::Rules;
+use crate::readback::curve::Plane;
 use crate::readback::{FeedMode, Washing};
 
 /// What a block asks for, group by group.

@@ -89,12 +89,42 @@ impl Lexer<'_, '_> {
         let next = self.line.get(start + 1).copied();
         let address =
             letters == 1 && matches!(next, Some(b'0'..=b'9' | b'+' | b'-' | b'.' | b'=' | b' ' | b'\t'));
+        if let Some(axis) = b"IJK".iter().position(|l| *l == first).filter(|_| letters == 1)
+            && self.assigns_place()
+        {
+            return self.place_between(axis, block);
+        }
         if address {
             self.at += 1;
             return self.address(first, rules, block);
         }
         let name = self.name();
         self.named(&name, rules, block);
+    }
+
+    /// Whether a letter is followed by `1=`.
+    fn assigns_place(&self) -> bool {
+        let rest = self.line.get(self.at + 1..).unwrap_or_default();
+        rest.strip_prefix(b"1").is_some_and(|rest| rest.trim_ascii_start().starts_with(b"="))
+    }
+
+    /// `I1=5`, `J1=AC(5)`, `K1=IC(5)`.
+    fn place_between(&mut self, axis: usize, block: &mut Block) {
+        let name = format!("{}1=", char::from(b"IJK"[axis]));
+        self.at += 2;
+        self.eat(b'=');
+        let mode = self.coordinate_mode();
+        let Some(value) = self.number() else {
+            (self.fault)(format!("{name} is not followed by a number this reader can follow"));
+            self.at = self.line.len();
+            return;
+        };
+        if mode.is_some() && !self.eat(b')') {
+            (self.fault)(format!("the bracket of {name} is not closed"));
+        }
+        if block.words().between[axis].replace((value.value, mode)).is_some() {
+            (self.fault)(format!("multiple {name} words in one block"));
+        }
     }
 
     fn name(&mut self) -> String {

@@ -12,6 +12,7 @@ use crate::readback::FeedMode;
 
 mod cycles;
 mod lexer;
+mod through;
 
 pub(super) use cycles::Modal;
 pub(in crate::readback::word) use lexer::read;
@@ -23,6 +24,8 @@ pub(in crate::readback) struct Words {
     pub absolute: u32,
     /// Letters whose value is in `IC()`.
     pub incremental: u32,
+    /// `I1=`, `J1=`, `K1=`: a place between the ends of a circle, and whether it says that it is absolute or not.
+    pub between: [Option<(f64, Option<bool>)>; 3],
     /// `TURN=`.
     pub turns: Option<f64>,
     /// `SD=`: degree of a spline.
@@ -149,6 +152,7 @@ fn g(tenths: u16) -> Option<G> {
         710 | 7100 => G::Units { inch: false },
         7000 => G::Units { inch: true },
         10_200 => G::Motion(Mode::BSpline),
+        10_230 => G::Motion(Mode::Through),
         930 => G::Feed(FeedMode::InverseTime),
         940 => G::Feed(FeedMode::PerMinute),
         950 => G::Feed(FeedMode::PerRevolution),
@@ -162,7 +166,7 @@ fn g(tenths: u16) -> Option<G> {
 
 fn unfollowed(tenths: u16) -> Option<G> {
     Some(G::Unfollowed(match tenths {
-        50 | 70 | 330 | 10_210..=10_231 => Group::Motion,
+        50 | 70 | 330 | 10_210..=10_221 | 10_231 => Group::Motion,
         410 | 420 => Group::Radius,
         700 => Group::Units,
         250 | 260 | 740 | 750 | 1100 | 1110 | 1120 => Group::Once,
