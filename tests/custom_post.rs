@@ -36,8 +36,15 @@ fn a_controller_written_in_one_file_makes_proven_programs() {
 }
 
 /// Posts of controls that are not built in, by their files; all but the last are for people to look at.
-const POSTS: [&str; 3] =
-    ["examples/posts/fagor.post.toml", "examples/posts/num.post.toml", "tests/data/posts/syntec.post.toml"];
+const POSTS: [&str; 4] = [
+    "examples/posts/fagor.post.toml",
+    "examples/posts/num.post.toml",
+    "examples/posts/sinumerik_cip.post.toml",
+    "tests/data/posts/syntec.post.toml",
+];
+/// Programs of which all posts' texts are looked at, and one of which the arcs of other planes are.
+const SHOWN: [&str; 2] = ["plate_cam.apt", "nx_cover.cls"];
+const ARCS: (&str, &str) = ("net_arcs.apt", "sinumerik_cip");
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -77,9 +84,9 @@ fn posts_of_other_controls_make_proven_programs_of_all_examples() {
         let proven = build.outputs.iter().filter_map(|output| Some((output, output.proven.as_ref()?)));
         let proven: Vec<_> = proven.collect();
         assert_eq!(proven.len(), POSTS.len(), "{name}: {:?}", build.diagnostics);
-        if ["plate_cam.apt", "nx_cover.cls"].iter().any(|shown| name.ends_with(shown)) {
-            for (output, proven) in proven {
-                let name = name.trim_start_matches("examples/");
+        let name = name.trim_start_matches("examples/");
+        for (output, proven) in proven {
+            if SHOWN.contains(&name) || ARCS == (name, output.post.as_str()) {
                 insta::assert_snapshot!(format!("{name}.{}", output.post), proven.text());
             }
         }

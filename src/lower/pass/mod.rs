@@ -60,11 +60,21 @@ struct Trouble {
 
 /// Fits all passes of a program, in parallel; one entry a record, `None` where it is no pass.
 pub(super) fn fit_all(cl: &Cl, capabilities: &Capabilities, sink: &mut Sink) -> Vec<Option<Arc<Chain>>> {
-    let fitted: Vec<Option<Result<Chain, Trouble>>> = cl
+    let tasks: Vec<Option<Fittable<'_>>> = cl
         .records
         .par_iter()
         .map(|record| match &record.kind {
-            RecordKind::Pass(pass) => Some(fit(pass, capabilities)),
+            RecordKind::Pass(pass) => Some(Task::new(pass, capabilities)),
+            _ => None,
+        })
+        .collect();
+    let tasks = joined(tasks);
+    let fitted: Vec<Option<Result<Chain, Trouble>>> = cl
+        .records
+        .par_iter()
+        .zip(tasks)
+        .map(|(record, task)| match &record.kind {
+            RecordKind::Pass(pass) => Some(task?.and_then(|task| fit(&task, pass, capabilities))),
             _ => None,
         })
         .collect();
@@ -124,9 +134,37 @@ fn no_pass(
     cannot_fit(cl, origin, pass.band, message, capabilities)
 }
 
+/// Passes that follow on one another meet in one vertex, where either's band allows the other's.
+fn joined(mut tasks: Vec<Option<Fittable<'_>>>) -> Vec<Option<Fittable<'_>>> {
+    for i in 1..tasks.len() {
+        let (before, after) = tasks.split_at_mut(i);
+        let (Some(Some(Ok(one))), Some(Some(Ok(next)))) = (before.last_mut(), after.first_mut()) else {
+            continue;
+        };
+        let ([.., tail], [head, ..]) = (one.ends, next.ends);
+        if tail.steps == head.steps {
+            continue;
+        }
+        // Passes that keep to a plane take no vertex beside it.
+        if let Some(vertex) = next.end_at(0, tail.steps) {
+            next.ends[0] = vertex;
+        } else if let Some(vertex) = one.end_at(1, head.steps) {
+            one.ends[1] = vertex;
+        }
+    }
+    tasks
+}
+
+/// A pass that can be fitted, or why it cannot.
+type Fittable<'a> = Result<Task<'a>, Trouble>;
+
 /// What a pass is fitted with.
 struct Task<'a> {
-    track: &'a Track,
+    track: Track,
+    /// Exact contacts at its ends.
+    contacts: [Contact; 2],
+    /// Vertices there.
+    ends: [Vertex; 2],
     lattice: Lattice,
     /// Radius of the ball that rounds the cutter, with what it leaves, mm.
     ball: f64,
@@ -136,35 +174,24 @@ struct Task<'a> {
     room: &'a [f64],
 }
 
-fn fit(pass: &Pass, capabilities: &Capabilities) -> Result<Chain, Trouble> {
-    let step = capabilities.grid.linear_step();
-    let share = capabilities.path_tolerance.map_or(0.0, |p| p.share);
-    let reserved = share * pass.band.into.min(pass.band.out);
-    let lattice = Lattice::new(step, pass.tip, &pass.track.guide);
-    let track = lattice.snapped(&pass.track);
-    let task = Task {
-        track: &track,
-        lattice,
-        ball: pass.track.radius,
-        low: reserved - pass.band.into,
-        high: pass.band.out - reserved,
-        room: &pass.room,
-    };
-    let lost =
-        |t: f64| Trouble { at: track.at(t, None).map_or_else(Point3::origin, |c| c.centre), lost: true };
-    let (Some(first), Some(last)) = (track.at(0.0, None), track.at(1.0, None)) else { return Err(lost(0.5)) };
-    let ends = [first, last].map(|c| task.vertex(&c, 0.5 * (task.low + task.high)));
-    let [Some(head), Some(tail)] = ends else { return Err(Trouble { at: first.centre, lost: false }) };
-    let chart = Chart::new(&track, 0.02 * (task.high - task.low), (first, last)).ok_or_else(|| lost(0.5))?;
+fn fit(task: &Task<'_>, pass: &Pass, capabilities: &Capabilities) -> Result<Chain, Trouble> {
+    let ([first, last], [head, tail]) = (task.contacts, task.ends);
+    let chart = Chart::new(&task.track, 0.02 * (task.high - task.low), (first, last))
+        .ok_or_else(|| lost(&task.track))?;
     let lines = task.best(&chart, head, tail);
     if !pass.arcs || no_arcs(pass, capabilities).is_some() {
         return lines;
     }
-    match (arcs::chain(&task, &chart, (head, tail), capabilities), lines) {
+    match (arcs::chain(task, &chart, (head, tail), capabilities), lines) {
         (Some(arcs), Ok(lines)) => Ok(if arcs.len() < lines.len() { arcs } else { lines }),
         (Some(arcs), Err(_)) => Ok(arcs),
         (None, lines) => lines,
     }
+}
+
+/// A pass that loses the surface, told at its middle.
+fn lost(track: &Track) -> Trouble {
+    Trouble { at: track.at(0.5, None).map_or_else(Point3::origin, |c| c.centre), lost: true }
 }
 
 /// The plane in which a pass could be arcs, where the control has none in it.
@@ -173,7 +200,29 @@ fn no_arcs(pass: &Pass, capabilities: &Capabilities) -> Option<Plane> {
     (!(capabilities.arcs && capabilities.planes.contains_key(&plane))).then_some(plane)
 }
 
-impl Task<'_> {
+impl<'a> Task<'a> {
+    fn new(pass: &'a Pass, capabilities: &Capabilities) -> Result<Task<'a>, Trouble> {
+        let step = capabilities.grid.linear_step();
+        let share = capabilities.path_tolerance.map_or(0.0, |p| p.share);
+        let reserved = share * pass.band.into.min(pass.band.out);
+        let (low, high) = (reserved - pass.band.into, pass.band.out - reserved);
+        let lattice = Lattice::new(step, pass.tip, &pass.track.guide);
+        let track = lattice.snapped(&pass.track);
+        let (Some(first), Some(last)) = (track.at(0.0, None), track.at(1.0, None)) else {
+            return Err(lost(&track));
+        };
+        let ends = [first, last].map(|c| lattice.vertex(&c, 0.5 * (low + high), (low, high)));
+        let [Some(head), Some(tail)] = ends else { return Err(Trouble { at: first.centre, lost: false }) };
+        let (contacts, ends) = ([first, last], [head, tail]);
+        let (ball, room) = (pass.track.radius, pass.room.as_slice());
+        Ok(Task { track, contacts, ends, lattice, ball, low, high, room })
+    }
+
+    /// A vertex given for the start (0) or the end (1), where the band holds it.
+    fn end_at(&self, end: usize, steps: [i64; 3]) -> Option<Vertex> {
+        self.lattice.given(&self.contacts[end], steps, (self.low, self.high), self.ends[end].steps)
+    }
+
     /// The fewest blocks over all margins.
     fn best(&self, chart: &Chart, head: Vertex, tail: Vertex) -> Result<Chain, Trouble> {
         let mut best: Option<Vec<Vertex>> = None;
@@ -310,7 +359,7 @@ impl Task<'_> {
 
     /// Whether the straight way from a vertex to a place on the grid stays in the band.
     fn holds(&self, from: &Vertex, to: [i64; 3]) -> bool {
-        let (question, track) = (self.question(), self.track);
+        let (question, track) = (self.question(), &self.track);
         let (a, b) = (self.lattice.centre(from.steps), self.lattice.centre(to));
         let found = extremes(&track.tree, &track.cutter, a, b, &question, Some(&from.foot));
         found.least.distance >= question.enough - SLACK && found.most.distance <= question.little + SLACK
@@ -318,7 +367,7 @@ impl Task<'_> {
 
     /// Whether an arc from a vertex stays in the band.
     fn follows(&self, from: &Vertex, arc: &circle::Helix) -> bool {
-        let (question, track) = (self.question(), self.track);
+        let (question, track) = (self.question(), &self.track);
         let at = |x: f64| arc.at(x);
         let way = Way { at: &at, bend: arc.bend() };
         bent::along(&track.tree, &track.cutter, &way, &question, Some(&from.foot)).is_some_and(|found| {

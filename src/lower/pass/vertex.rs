@@ -4,6 +4,9 @@ use super::axis_of;
 use crate::geom::surface::{Contact, Foot, Guide, Track};
 use crate::geom::{Point2, Point3, Vec3};
 
+/// Vertices of passes that meet are no farther apart than this, steps, or half the band.
+const NEAR: f64 = 3.0;
+
 /// The grid, as the tip of a ball sees it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Lattice {
@@ -77,6 +80,23 @@ impl Lattice {
             }
         }
         best.map(|b| b.1)
+    }
+
+    /// A vertex that is given, where it is as good: within the band, in the pass's plane, and near its `own` one.
+    pub(super) fn given(
+        &self,
+        contact: &Contact,
+        steps: [i64; 3],
+        range: (f64, f64),
+        own: [i64; 3],
+    ) -> Option<Vertex> {
+        let near = (NEAR * self.step).max(0.5 * (range.1 - range.0));
+        let near = (self.centre(steps) - self.centre(own)).norm() <= near;
+        let beside = self.axis.is_some_and(|axis| steps[1 - axis] != own[1 - axis]);
+        let centre = self.centre(steps);
+        let off = (centre - contact.centre).dot(&contact.normal);
+        let good = near && !beside && off >= range.0 && off <= range.1;
+        good.then_some(Vertex { steps, centre, off, foot: contact.foot, t: f64::NAN })
     }
 
     /// The direction in which vertices move off the track: in its plane for a plane pass, else along the normal.

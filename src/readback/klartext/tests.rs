@@ -94,6 +94,31 @@ fn circles_about_a_pole_by_radius_and_by_angle() {
 }
 
 #[test]
+fn circles_about_poles_with_z_lie_in_the_other_planes() {
+    let tilted = |m: &TraceMove| match &m.path {
+        TracePath::Tilted(arc) => *arc,
+        other => panic!("{other:?}"),
+    };
+    // From Z to X counter-clockwise, as seen against Y.
+    let moves = clean("L Z+0 F120\nCC X+0 Z+0\nC X+0 Z-10 DR+\nC X+10 Z+0 DR-\nCC Y+0 Z+5\nC Y+5 Z+5 DR+");
+    let arcs = [tilted(&moves[1]), tilted(&moves[2]), tilted(&moves[3])];
+    assert!(arcs[0].axis.y == 1.0 && close(arcs[0].sweep, PI / 2.0) && close(arcs[1].sweep, -PI / 2.0));
+    assert!(arcs[2].axis.x == 1.0 && close(arcs[2].sweep, PI / 2.0) && close(arcs[2].centre.x, 10.0));
+    assert_eq!(moves[3].end(), crate::geom::Point3::new(10.0, 5.0, 5.0));
+    for (body, words) in [
+        ("CC X+0 Y+0 Z+0", "a pole has two coordinates"),
+        ("CC Z+0", "a pole has two coordinates"),
+        ("CC X+0 Z+0\nC X+0 Y+1 Z-10 DR+ F100", "Y in a C block"),
+        ("L Z+0 F100\nCC X+0 Z+0\nC X+0 Z-10.1 DR+", "circle end point incorrect"),
+        ("L Z+0 F100\nCC X+0 Z+0\nCP IPA+90 DR+", "CP about a pole with Z"),
+        ("L Z+0 F100\nCR X+0 Z-10 R+10 DR+", "Z in a CR block"),
+    ] {
+        let got = trace(&program("MM", body)).faults;
+        assert!(got.iter().any(|f| f.message.contains(words)), "{body}: {got:#?}");
+    }
+}
+
+#[test]
 fn the_control_refuses_what_it_refuses() {
     for (body, words) in [
         ("L X+1", "feed rate is missing"),

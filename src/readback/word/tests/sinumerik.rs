@@ -184,3 +184,46 @@ fn a_bspline_starts_where_the_tool_is_and_ends_with_the_next_motion() {
         assert!(got.iter().any(|f| f.message.contains(words)), "{body}: {got:#?}");
     }
 }
+
+fn tilted(m: &TraceMove) -> &crate::readback::Tilted {
+    let TracePath::Tilted(arc) = &m.path else { panic!("{m:?}") };
+    arc
+}
+
+#[test]
+fn cip_goes_through_its_place_between() {
+    // Over the top from X10 to X0, in the plane of X and Z.
+    let moves = fine("CIP X0 I1=5 J1=0 K1=10\nG1 X-1");
+    let arc = tilted(&moves[0]);
+    assert!((arc.centre - crate::geom::Point3::new(5.0, 0.0, 5.0)).norm() < 1e-12, "{arc:?}");
+    assert!(arc.axis.y == -1.0 && close(arc.sweep, PI) && close(arc.at(0.5).z, 10.0));
+    assert_eq!(line(&moves[1]).0, Point2::new(0.0, 0.0));
+    // The same under it, in increments; then back, by the word that is still in force.
+    let moves = fine("G91 CIP X-10 I1=IC(-5) K1=-5\nG90 X10 Z5 I1=AC(5) K1=AC(10)");
+    assert!(close(tilted(&moves[0]).at(0.5).z, 0.0) && close(tilted(&moves[1]).at(0.5).z, 10.0));
+    // Level ones are arcs as those of G2 and G3.
+    let moves = fine("CIP X0 Y0 I1=5 J1=5\nCIP X10 Y0 I1=5 J1=5 ; back");
+    assert!(close(self::arc(&moves[0]).1, PI) && close(self::arc(&moves[1]).1, -PI));
+    // Anywhere in space, and for more than half a turn.
+    let moves = fine("CIP X11 Y1 Z6 I1=12 J1=5 K1=3");
+    let arc = tilted(&moves[0]);
+    assert!(
+        arc.sweep > 0.0
+            && [arc.from, arc.to, crate::geom::Point3::new(12.0, 5.0, 3.0)].iter().all(|p| {
+                let arm = p - arc.centre;
+                close(arm.norm(), arc.radii().0) && arm.dot(&arc.axis).abs() < 1e-9
+            })
+    );
+    for (body, words) in [
+        ("CIP X0", "without a place between"),
+        ("CIP X0 I1=5 K1=5", "lie in a line"),
+        ("G1 X0 I1=5", "without CIP"),
+        ("CIP X0 I1=5 I1=6 K1=7", "multiple I1= words"),
+        ("CIP X0 I1=AC(5 K1=7", "not closed"),
+        ("CIP X0 I1=R5 K1=7", "is not followed by a number"),
+        ("CT X0 Y3", "CT"),
+    ] {
+        let got = run_it(&program(body)).faults;
+        assert!(got.iter().any(|f| f.message.contains(words)), "{body}: {got:#?}");
+    }
+}
