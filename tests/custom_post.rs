@@ -35,7 +35,7 @@ fn a_controller_written_in_one_file_makes_proven_programs() {
     insta::assert_snapshot!("custom_post_router", text.replace("\r\n", "\n"));
 }
 
-/// Posts of controls that are not built in, by their files; all but the last are for people to look at.
+/// Posts of controls that are not built in, or not so, by their files; all but the last are for people to look at.
 const POSTS: [&str; 4] = [
     "examples/posts/fagor.post.toml",
     "examples/posts/num.post.toml",

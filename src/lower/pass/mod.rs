@@ -141,15 +141,21 @@ fn joined(mut tasks: Vec<Option<Fittable<'_>>>) -> Vec<Option<Fittable<'_>>> {
         let (Some(Some(Ok(one))), Some(Some(Ok(next)))) = (before.last_mut(), after.first_mut()) else {
             continue;
         };
-        let ([.., tail], [head, ..]) = (one.ends, next.ends);
-        if tail.steps == head.steps {
-            continue;
-        }
-        // Passes that keep to a plane take no vertex beside it.
-        if let Some(vertex) = next.end_at(0, tail.steps) {
-            next.ends[0] = vertex;
-        } else if let Some(vertex) = one.end_at(1, head.steps) {
-            one.ends[1] = vertex;
+        let (tail, head) = (one.ends[1].steps, next.ends[0].steps);
+        // Passes that keep to a plane take no vertex beside it: two of them may meet where their planes do.
+        let corner = |z: i64| {
+            let mut steps = [tail[0], tail[1], z];
+            if let Some(kept) = next.lattice.kept() {
+                steps[kept] = head[kept];
+            }
+            steps
+        };
+        let both = [tail, head, corner(tail[2]), corner(head[2])]
+            .into_iter()
+            .find_map(|steps| one.end_at(1, steps).zip(next.end_at(0, steps)));
+        if let Some((end, start)) = both {
+            one.ends[1] = end;
+            next.ends[0] = start;
         }
     }
     tasks

@@ -67,7 +67,7 @@ impl Lattice {
         let mut best: Option<(f64, Vertex)> = None;
         for k in 0..27i64 {
             let shift = [k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1];
-            if self.axis.is_some_and(|axis| shift[1 - axis] != 0) {
+            if self.kept().is_some_and(|kept| shift[kept] != 0) {
                 continue;
             }
             let steps: [i64; 3] = core::array::from_fn(|i| base[i] + shift[i]);
@@ -82,6 +82,11 @@ impl Lattice {
         best.map(|b| b.1)
     }
 
+    /// The coordinate that a plane pass keeps.
+    pub(super) fn kept(&self) -> Option<usize> {
+        self.axis.map(|axis| 1 - axis)
+    }
+
     /// A vertex that is given, where it is as good: within the band, in the pass's plane, and near its `own` one.
     pub(super) fn given(
         &self,
@@ -92,7 +97,7 @@ impl Lattice {
     ) -> Option<Vertex> {
         let near = (NEAR * self.step).max(0.5 * (range.1 - range.0));
         let near = (self.centre(steps) - self.centre(own)).norm() <= near;
-        let beside = self.axis.is_some_and(|axis| steps[1 - axis] != own[1 - axis]);
+        let beside = self.kept().is_some_and(|kept| steps[kept] != own[kept]);
         let centre = self.centre(steps);
         let off = (centre - contact.centre).dot(&contact.normal);
         let good = near && !beside && off >= range.0 && off <= range.1;
@@ -101,9 +106,9 @@ impl Lattice {
 
     /// The direction in which vertices move off the track: in its plane for a plane pass, else along the normal.
     pub(super) fn sideways(&self, normal: Vec3) -> Vec3 {
-        let Some(axis) = self.axis else { return normal };
+        let Some(kept) = self.kept() else { return normal };
         let mut flat = normal;
-        flat[1 - axis] = 0.0;
+        flat[kept] = 0.0;
         flat.try_normalize(1e-9).unwrap_or(normal)
     }
 }

@@ -159,11 +159,11 @@ fn arcs_in_other_planes_say_their_plane_and_no_offset_along_its_axis() {
     };
     assert_eq!(arc("fanuc", Plane::Zx), ["G18 G2 X20. I10. K0. F300.", "G17 X30. Y10. I10. J0."]);
     assert_eq!(arc("fanuc", Plane::Yz), ["G19 G2 Y20. J10. K0. F300.", "G17 X10. Y30. I10. J0."]);
-    // Planes of these controls change the axis of the tool's length.
-    for name in ["sinumerik", "heidenhain"] {
-        let planes = builtin(name).capabilities(LengthUnit::Millimetre, None).unwrap().planes;
-        assert_eq!(planes.into_keys().collect::<Vec<_>>(), [Plane::Xy], "{name}");
-    }
+    // The planes of the one change the axis of the tool's length, and its CIP is asked for by posts; poles say the plane.
+    let planes = builtin("sinumerik").capabilities(LengthUnit::Millimetre, None).unwrap().planes;
+    assert_eq!(planes.into_keys().collect::<Vec<_>>(), [Plane::Xy]);
+    assert_eq!(arc("sinumerik", Plane::Zx), ["CIP X20 I1=10 J1=0 K1=-10 F300", "G2 X30 Y10 I10 J0"]);
+    assert_eq!(arc("heidenhain", Plane::Yz)[..2], ["CC Y+10 Z+0", "C Y+20 Z+0 DR- F300"]);
     assert_eq!(
         arc("apt-cl", Plane::Yz)[1..3],
         ["CIRCLE/0, 10, 0, -1, 0, 0, 10".to_owned(), "GOTO/0, 20, 0".to_owned()]
