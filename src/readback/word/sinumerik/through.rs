@@ -74,7 +74,8 @@ fn circle(a: Point3, b: Point3, c: Point3) -> Option<TracePath> {
     let (p, q) = (b - a, c - a);
     let normal = p.cross(&q);
     let (pp, qq, nn) = (p.norm_squared(), q.norm_squared(), normal.norm_squared());
-    if !(nn > STRAIGHT * STRAIGHT * pp * qq) {
+    let apart = nn > STRAIGHT * STRAIGHT * pp * qq;
+    if !apart {
         return None;
     }
     // The centre is as far from `a` as from the two others, in their plane.
