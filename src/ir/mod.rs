@@ -536,6 +536,8 @@ pub struct RoughNet {
     pub ramp: f64,
     /// Climb or conventional.
     pub cut: Cut,
+    /// Each level from the outside inwards, or from the inside outwards; without it, as the cutter comes in best.
+    pub inward: Option<bool>,
     /// The cutter.
     pub tool: Handle<Tool>,
     /// Tolerance.

@@ -234,6 +234,7 @@ impl Analyser<'_> {
             leave: m.number("leave").unwrap_or(self.state.thick),
             ramp: m.number("ramp").unwrap_or(RAMP) * DEG,
             cut: super::operation::cut(m),
+            inward: m.word("order").map(|word| word == "IN"),
             tool,
             band: self.state.band,
             clearance: self.state.clearance,

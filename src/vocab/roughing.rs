@@ -2,7 +2,7 @@
 
 use super::operations::{CUT, STOCK};
 use super::surfaces::{ALONG, LEAVE, ORDER, STEP};
-use super::{Choices, EntityKind, Form, Item, Kind, POSITIVE, Range, form, value, with, word};
+use super::{Choices, EntityKind, Form, Item, Kind, POSITIVE, Range, choices, form, value, with, word};
 use crate::units::Dim;
 
 const NET: Item = value("net", Kind::Entity(&[EntityKind::Net]), "the net");
@@ -31,7 +31,7 @@ pub(super) const OFFSET: Form = form(
 pub(super) const LEVELS: Form = form(
     "levels",
     "a net in levels from a blank: waterlines of the surface with what is left on it, cleared by rings",
-    &[NET, Item::Word("how", &[word("LEVELS", "planes, each cleared from the inside outwards")])],
+    &[NET, Item::Word("how", &[word("LEVELS", "planes, each cleared by rings")])],
     &[
         STOCK,
         with(
@@ -58,6 +58,14 @@ pub(super) const LEVELS: Form = form(
             &[value("ramp", Kind::Number(Dim::ANGLE, Range::Within(0.5, 45.0)), "angle")],
             false,
             "3 degrees",
+        ),
+        choices(
+            "order",
+            &[
+                word("IN", "each level from the outside inwards"),
+                word("OUT", "each level from the inside outwards"),
+            ],
+            "IN where the cutter comes from beside the blank, else OUT",
         ),
         CUT,
     ],

@@ -17,12 +17,12 @@ pub(super) struct Piece {
 /// Largest radius of an arc, mm: flatter ones are cut as shorter lines.
 const FLATTEST: f64 = 2000.0;
 
-/// The pieces from the first to the last of these points.
-pub(super) fn fit(points: &[Point2], tolerance: f64) -> Vec<Piece> {
+/// The pieces from the first to the last of these points; all are straight where none may be bent.
+pub(super) fn fit(points: &[Point2], tolerance: f64, bent: bool) -> Vec<Piece> {
     let mut pieces = Vec::new();
     let mut at = 0;
     while at + 1 < points.len() {
-        let (end, piece) = longest(points, at, tolerance);
+        let (end, piece) = longest(points, at, (tolerance, bent));
         pieces.push(piece);
         at = end;
     }
@@ -30,14 +30,14 @@ pub(super) fn fit(points: &[Point2], tolerance: f64) -> Vec<Piece> {
 }
 
 /// The longest piece from point `at`, looked for by doubling and halving; with the point where it ends.
-fn longest(points: &[Point2], at: usize, tolerance: f64) -> (usize, Piece) {
+fn longest(points: &[Point2], at: usize, (tolerance, bent): (f64, bool)) -> (usize, Piece) {
     let last = points.len() - 1;
     let straight = Piece { to: points[at + 1], arc: None };
     let (mut good, mut best) = (at + 1, straight);
     let mut step = 1;
     while good < last {
         let end = (good + step).min(last);
-        match piece(&points[at..=end], tolerance) {
+        match piece(&points[at..=end], tolerance).filter(|found| bent || found.arc.is_none()) {
             Some(found) => {
                 (good, best) = (end, found);
                 step *= 2;
@@ -102,7 +102,7 @@ mod tests {
 
     #[test]
     fn a_circle_takes_few_arcs() {
-        let pieces = fit(&circle(10.0, 200), 0.01);
+        let pieces = fit(&circle(10.0, 200), 0.01, true);
         assert!(pieces.len() <= 4, "{pieces:?}");
         for piece in &pieces[..pieces.len() - 1] {
             let (centre, turns_left) = piece.arc.expect("an arc");
@@ -118,7 +118,7 @@ mod tests {
             let (a, b) = (Point2::from(pair[0]), Point2::from(pair[1]));
             points.extend((1..=20u32).map(|k| a + (b - a) * (f64::from(k) / 20.0)));
         }
-        let pieces = fit(&points, 0.01);
+        let pieces = fit(&points, 0.01, true);
         assert_eq!(pieces.len(), 4, "{pieces:?}");
         assert!(pieces.iter().all(|p| p.arc.is_none()));
     }
@@ -131,7 +131,7 @@ mod tests {
                 Point2::new(x, 2.0 * crate::math::sin(0.4 * x))
             })
             .collect();
-        let pieces = fit(&points, 0.02);
+        let pieces = fit(&points, 0.02, true);
         assert!(pieces.len() < 20, "{}", pieces.len());
         let mut from = points[0];
         let mut k = 0;

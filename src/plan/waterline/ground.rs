@@ -76,6 +76,16 @@ impl Grid {
         ];
         ways.into_iter().flatten()
     }
+    /// The nodes around a place.
+    pub(super) fn around(&self, p: Point2) -> [usize; 4] {
+        let [i, j] = [0, 1].map(|axis| {
+            let most = self.counts[axis].saturating_sub(2);
+            // Not negative, and floats saturate.
+            (((p[axis] - self.low[axis]) / self.step).max(0.0) as usize).min(most)
+        });
+        let k = i * self.counts[1] + j;
+        [k, k + 1, k + self.counts[1], k + self.counts[1] + 1]
+    }
     /// A field of the nodes between them, linear in x and y.
     pub(super) fn between(&self, field: &[f64], p: Point2) -> f64 {
         let at = |axis: usize| {
@@ -194,6 +204,29 @@ impl Ground {
     pub(super) fn value(&self, p: Point2, z: f64, hints: &mut Hints) -> f64 {
         let (beyond, border) = nearest(&self.outline, p);
         self.joined(self.tip(p, (beyond, border), hints) - z, (!self.open).then_some(beyond))
+    }
+
+    /// Whether a node belongs to what is cleared: outside the blank there is nothing.
+    pub(super) fn may_stand(&self, k: usize) -> bool {
+        !self.open || self.blank.distance(self.grid.node(k)) <= 0.0
+    }
+
+    /// A height at which the tip is free at a place and for a part of the grid's step about it: not above `low` where the nodes
+    /// around say so.
+    pub(super) fn free_height(&self, p: Point2, low: f64, hints: &mut Hints) -> f64 {
+        /// The surface may rise so much, as a share of the grid's step, between two places that are looked at.
+        const RISE: f64 = 0.1;
+        let around = self.grid.around(p);
+        let inside = |k: &usize| self.beyond.get(*k).is_none_or(|off| *off <= 0.0);
+        let nodes = around.iter().map(|k| self.tips[*k]).fold(f64::NEG_INFINITY, f64::max);
+        if nodes <= low && around.iter().all(inside) {
+            return low;
+        }
+        let (beyond, border) = nearest(&self.outline, p);
+        if !self.open && beyond > 0.0 {
+            return f64::INFINITY;
+        }
+        low.max(self.tip(p, (beyond, border), hints) + RISE * self.grid.step)
     }
 
     /// Where a level's value changes its sign between two nodes, on the side where it is not positive.

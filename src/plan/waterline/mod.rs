@@ -8,7 +8,9 @@
 
 mod arcs;
 mod chain;
+mod entry;
 mod ground;
+mod link;
 mod march;
 mod path;
 mod slice;
@@ -303,6 +305,7 @@ fn job(
         ramp: crate::math::tan(rough.ramp),
         tolerance: FIT * margin,
         wall_left,
+        inward: rough.inward,
     };
     let ground = Ground::new(rest, blank, step, manner.air);
     let low = ground.lowest()?;

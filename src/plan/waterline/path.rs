@@ -1,13 +1,13 @@
 //! The way of the cutter through a level: entries, rings, and how one leads to the next.
 
 use super::arcs;
-use super::chain::{around, closest, enclosed, length, pair, place_towards, sweep};
-use super::ground::{Ground, Hints};
+use super::chain::{length, sweep};
+use super::ground::Ground;
 use super::slice::{Pocket, Ring, Slice};
 use crate::geom::surface::Cutter;
 use crate::geom::surface::heights::HeightField;
-use crate::geom::{Point2, Point3, Vec2};
-use crate::math::{TAU, ceil_to_usize, count, hypot, sin_cos};
+use crate::geom::{Point2, Point3};
+use crate::math::{TAU, ceil_to_usize, count, sin_cos};
 
 /// A move of the tip.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,6 +38,8 @@ pub(super) struct Manner {
     pub tolerance: f64,
     /// Walls are to the left of travel.
     pub wall_left: bool,
+    /// From the outside inwards, or from the inside outwards; without it, as the cutter comes in best.
+    pub inward: Option<bool>,
 }
 
 /// What a path takes.
@@ -57,33 +59,26 @@ pub(super) struct Tally {
     pub skipped: (u32, f64),
 }
 
+/// A pocket under way: what lies in it is not all cleared yet.
+struct Turn {
+    pocket: Option<usize>,
+    rest: Vec<usize>,
+    /// It is cut before what lies in it.
+    reversed: bool,
+}
+
 /// The path under way.
 pub(super) struct Path<'a> {
-    ground: &'a Ground,
-    manner: Manner,
+    pub(super) ground: &'a Ground,
+    pub(super) manner: Manner,
     pub moves: Vec<Move>,
     pub tally: Tally,
     /// The tip, while it is down.
-    at: Option<Point3>,
-    stock: HeightField,
+    pub(super) at: Option<Point3>,
+    pub(super) stock: HeightField,
 }
 
-/// A rapid stops so far above the stock, mm.
-const GAP: f64 = 0.5;
-/// Rings smaller than this share of the cutter's radius are not missed.
-const TRIFLE: f64 = 0.1;
-/// Steps on the way out of the blank at most.
-const MOST_STEPS: u32 = 2000;
-/// The cutter is looked at larger by this share of the stock's cells.
-const LARGER: f64 = 0.25;
-/// A way down starts so far above what is left of the stock, mm.
-const ABOVE: f64 = 0.05;
-/// Helix radius: at most this share of the cutter's, of the room, and at least this share of the cutter's.
-const HELIX: (f64, f64, f64) = (0.5, 0.9, 0.15);
-/// Rings shorter than this share of the cutter's radius, or than so many times that of its flat, are no room to go down along.
-const SHORTEST: (f64, f64) = (0.2, 1.0);
-
-fn over(p: Point2, z: f64) -> Point3 {
+pub(super) fn over(p: Point2, z: f64) -> Point3 {
     Point3::new(p.x, p.y, z)
 }
 
@@ -92,34 +87,48 @@ impl<'a> Path<'a> {
         Path { ground, manner, moves: Vec::new(), tally: Tally::default(), at: None, stock }
     }
 
-    /// Clears a level.
+    /// Clears a level, the nearest pocket first: inner pockets whole before what is around them, or the other way round.
     pub(super) fn level(&mut self, slice: &Slice) {
-        // Inner pockets first, each whole before the next.
-        let mut stack: Vec<(usize, bool)> = slice.outer.iter().rev().map(|p| (*p, false)).collect();
-        while let Some((index, ready)) = stack.pop() {
+        let mut stack = vec![Turn { pocket: None, rest: slice.outer.clone(), reversed: false }];
+        while let Some(turn) = stack.last_mut() {
+            let Some(index) = self.nearest_pocket(slice, &mut turn.rest) else {
+                let done = stack.pop().filter(|turn| !turn.reversed).and_then(|turn| turn.pocket);
+                if let Some(pocket) = done.and_then(|index| slice.pockets.get(index)) {
+                    self.pocket(slice, pocket, &pocket.inner);
+                }
+                continue;
+            };
             let Some(pocket) = slice.pockets.get(index) else { continue };
-            if ready {
-                self.pocket(slice, pocket);
-            } else {
-                stack.push((index, true));
-                stack.extend(pocket.inner.iter().rev().map(|p| (*p, false)));
+            let around = turn.pocket;
+            let reversed = if around.is_none() { self.is_reversed(pocket) } else { turn.reversed };
+            if reversed {
+                self.pocket(slice, pocket, around.as_slice());
             }
+            stack.push(Turn { pocket: Some(index), rest: pocket.inner.clone(), reversed });
         }
     }
 
-    /// Up, if the tip is down.
-    pub(super) fn lift(&mut self) {
-        if let Some(p) = self.at.take() {
-            self.moves.push(Move::Rapid(over(p.xy(), self.manner.safe)));
-        }
+    /// Whether a pocket is cleared from its walls on: that is outwards where the cutter comes from beside the blank, and
+    /// inwards elsewhere.
+    pub(super) fn is_reversed(&self, pocket: &Pocket) -> bool {
+        self.manner.inward.is_some_and(|inward| inward != pocket.airy)
     }
 
-    /// The rings of a pocket, whose inner pockets are cleared.
-    fn pocket(&mut self, slice: &Slice, pocket: &Pocket) {
-        let mut rest: Vec<Ring> = pocket.rings.iter().map(|r| self.directed(r)).collect();
+    /// Takes the pocket out of the list whose deepest place is nearest to where the tip is.
+    fn nearest_pocket(&self, slice: &Slice, rest: &mut Vec<usize>) -> Option<usize> {
+        let at = self.last().map_or_else(Point2::origin, |p| p.xy());
+        let off =
+            |index: usize| slice.pockets.get(index).map_or(f64::INFINITY, |p| (p.deepest.0 - at).norm());
+        let best = (0..rest.len()).min_by(|a, b| off(rest[*a]).total_cmp(&off(rest[*b])))?;
+        Some(rest.swap_remove(best))
+    }
+
+    /// The rings of a pocket, beside others that are cleared.
+    fn pocket(&mut self, slice: &Slice, pocket: &Pocket, before: &[usize]) {
+        let mut rest: Vec<Ring> = pocket.rings.iter().map(|r| self.directed(pocket, r)).collect();
         let mut cleared: Vec<Point2> = Vec::new();
-        for inner in pocket.inner.iter().filter_map(|p| slice.pockets.get(*p)) {
-            cleared.extend(inner.rings.iter().flat_map(|r| r.points.iter().copied()));
+        for other in before.iter().filter_map(|p| slice.pockets.get(*p)) {
+            cleared.extend(other.rings.iter().flat_map(|r| r.points.iter().copied()));
         }
         while !rest.is_empty() {
             let next = self.nearest(&rest);
@@ -134,9 +143,11 @@ impl<'a> Path<'a> {
         }
     }
 
-    fn directed(&self, ring: &Ring) -> Ring {
+    /// A ring in the direction of travel: material is on the side of the walls, or on the other where the walls are cut before.
+    fn directed(&self, pocket: &Pocket, ring: &Ring) -> Ring {
         let mut ring = ring.clone();
-        if self.manner.wall_left {
+        let away = self.is_reversed(pocket) && pocket.walls > 0.0;
+        if self.manner.wall_left != away {
             ring.points.reverse();
         }
         ring
@@ -153,7 +164,7 @@ impl<'a> Path<'a> {
         best.map_or(0, |(i, _)| i)
     }
 
-    fn last(&self) -> Option<Point3> {
+    pub(super) fn last(&self) -> Option<Point3> {
         self.moves.last().map(|m| match m {
             Move::Rapid(p) | Move::Line(p) | Move::Arc { to: p, .. } => *p,
         })
@@ -169,7 +180,7 @@ impl<'a> Path<'a> {
             self.outside(last, z)
         });
         if let Some(entry) = outside {
-            self.through_air(entry, z);
+            self.descend(entry, z);
             self.tally.links += (entry - points[0]).norm();
             self.line(over(points[0], z));
         } else {
@@ -192,230 +203,6 @@ impl<'a> Path<'a> {
         self.run(&points, (z, z));
     }
 
-    /// The nearest place beside the blank at which the cutter is clear of the stock and from which the way is free: straight
-    /// away from the blank, or askew.
-    fn outside(&self, p: Point2, z: f64) -> Option<Point2> {
-        const ASKEW: [f64; 7] = [0.0, 0.35, -0.35, 0.7, -0.7, 1.05, -1.05];
-        const FINEST: f64 = 0.05;
-        let out = self.ground.blank.outward(p);
-        let step = FINEST * self.ground.rest.radius;
-        let clear = |q: Point2| self.top_at(q).is_none_or(|top| top <= z - 1e-3);
-        ASKEW.into_iter().find_map(|angle| {
-            let (s, c) = sin_cos(angle);
-            let way = Vec2::new(c * out.x - s * out.y, s * out.x + c * out.y);
-            let places = (0..=MOST_STEPS).map(|k| p + way * (step * f64::from(k)));
-            let end = places
-                .take_while(|q| self.ground.blank.distance(*q) <= self.manner.air + step)
-                .find(|q| clear(*q))?;
-            self.free((p, end), z).then_some(end)
-        })
-    }
-
-    /// Whether the tip may run straight between two places.
-    fn free(&self, (from, to): (Point2, Point2), z: f64) -> bool {
-        let parts = ceil_to_usize((to - from).norm() / (0.5 * self.ground.grid.step)).max(1);
-        let mut hints = Hints::default();
-        (1..=parts).all(|k| {
-            let p = from + (to - from) * (count(k) / count(parts));
-            self.ground.value(p, z, &mut hints) <= 0.0
-        })
-    }
-
-    /// To a place beside the blank: straight, while the way is clear of it, else over it.
-    fn through_air(&mut self, to: Point2, z: f64) {
-        let clear = |from: Point3| {
-            let parts = ceil_to_usize((to - from.xy()).norm() / 0.5).max(1);
-            (0..=parts).all(|k| {
-                let p = from.xy() + (to - from.xy()) * (count(k) / count(parts));
-                self.top_at(p).is_none_or(|top| top <= z - 1e-3)
-            }) && self.free((from.xy(), to), z.min(from.z))
-        };
-        match self.at {
-            Some(from) if (from.z - z).abs() < 1e-9 && clear(from) => {
-                self.moves.push(Move::Rapid(over(to, z)));
-                self.at = Some(over(to, z));
-            }
-            _ => self.descend(to, z),
-        }
-    }
-
-    /// From above down to a place that is clear of material.
-    fn descend(&mut self, to: Point2, z: f64) {
-        self.lift();
-        let safe = self.manner.safe;
-        self.moves.push(Move::Rapid(over(to, safe)));
-        let height = self.top_at(to).map_or(z, |top| (top + GAP).max(z)).min(safe);
-        if height < safe {
-            self.moves.push(Move::Rapid(over(to, height)));
-        }
-        self.at = Some(over(to, height));
-        if height > z {
-            self.tally.links += height - z;
-            self.line(over(to, z));
-        }
-    }
-
-    /// Height of the tip at which the cutter touches the stock.
-    fn top_at(&self, p: Point2) -> Option<f64> {
-        // A little larger: the control rounds.
-        let cutter = self.cutter().grown(LARGER * self.stock.cell());
-        let height = self.stock.clear_height(p, &cutter);
-        height.is_finite().then_some(height - cutter.lift())
-    }
-
-    /// Comes down to the level at a ring or near it; where on the ring to begin. `None` where the pocket is left out.
-    fn come(&mut self, slice: &Slice, pocket: &Pocket, ring: &Ring, cleared: &[Point2]) -> Option<usize> {
-        let z = slice.z;
-        if let Some(at) = self.at.filter(|p| (p.z - z).abs() < 1e-9) {
-            let start = closest(&ring.points, at.xy());
-            if self.stays(slice, (at.xy(), ring.points[start])) {
-                return Some(start);
-            }
-        }
-        if let Some((place, start)) = pair(cleared, &ring.points)
-            && self.stays(slice, (place, ring.points[start]))
-        {
-            self.descend(place, z);
-            return Some(start);
-        }
-        if pocket.airy
-            && let Some(start) = self.enter_from_outside(z, ring)
-        {
-            return Some(start);
-        }
-        self.enter(slice, pocket, ring)
-    }
-
-    /// Whether a straight way keeps out of the walls.
-    fn stays(&self, slice: &Slice, (from, to): (Point2, Point2)) -> bool {
-        let length = (to - from).norm();
-        let parts = ceil_to_usize(length / (0.5 * self.ground.grid.step)).max(1);
-        length <= 3.0 * self.manner.width
-            && (0..parts).all(|k| {
-                let p = from + (to - from) * (count(k) / count(parts));
-                slice.room_at(&self.ground.grid, p) >= -0.02 * self.ground.grid.step
-            })
-            && self.free((from, from + (to - from) * 0.95), slice.z)
-    }
-
-    /// To a ring from beside the blank, where it is nearest to that.
-    fn enter_from_outside(&mut self, z: f64, ring: &Ring) -> Option<usize> {
-        let off = |k: &usize| self.ground.blank.distance(ring.points[*k]);
-        let mut places: Vec<usize> = (0..ring.points.len()).collect();
-        places.sort_by(|a, b| off(b).total_cmp(&off(a)));
-        const TRIES: usize = 8;
-        let stride = (places.len() / TRIES).max(1);
-        let (start, end) = places
-            .into_iter()
-            .step_by(stride)
-            .find_map(|k| self.outside(ring.points[k], z).map(|end| (k, end)))?;
-        self.through_air(end, z);
-        Some(start)
-    }
-
-    /// Down into full material: by a helix in the pocket's deepest place, or along the ring.
-    fn enter(&mut self, slice: &Slice, pocket: &Pocket, ring: &Ring) -> Option<usize> {
-        let radius = self.ground.rest.radius;
-        let (most, share, least) = HELIX;
-        let (centre, room) = pocket.deepest;
-        let helix = (share * room).min(most * radius);
-        if helix >= least * radius && self.free((centre, centre), slice.z) {
-            let start = closest(&ring.points, centre);
-            self.helix(slice.z, (centre, helix), ring.points[start]);
-            return Some(start);
-        }
-        let length = around(&ring.points);
-        if length < (SHORTEST.0 * radius).max(SHORTEST.1 * self.cutter().flat()) {
-            self.skip(&ring.points);
-            return None;
-        }
-        self.tally.along_ring += 1;
-        Some(self.ramp(slice.z, ring, length))
-    }
-
-    /// Notes that a ring is left out, if it is worth a word.
-    fn skip(&mut self, points: &[Point2]) {
-        let (low, high) = points
-            .iter()
-            .fold((Point2::new(f64::MAX, f64::MAX), Point2::new(f64::MIN, f64::MIN)), |(a, b), p| {
-                (a.inf(p), b.sup(p))
-            });
-        let extent = (high - low).norm();
-        if extent >= TRIFLE * self.ground.rest.radius {
-            let skipped = &mut self.tally.skipped;
-            *skipped = (skipped.0 + 1, skipped.1.max(extent));
-        }
-    }
-
-    /// Height from which material may stand around some places.
-    fn top_around(&self, places: &[Point2], z: f64) -> f64 {
-        let cutter = self.cutter();
-        let tops = places.iter().map(|p| self.stock.likely_height(*p, &cutter) - cutter.lift() + ABOVE);
-        tops.fold(z, f64::max).min(self.manner.safe)
-    }
-
-    /// Down by a helix that ends towards a place.
-    fn helix(&mut self, z: f64, (centre, radius): (Point2, f64), towards: Point2) {
-        const PLACES: u32 = 8;
-        // An arc that is shorter than this share of a turn is made longer by so much.
-        const LEAST: f64 = 0.05;
-        let ccw = !self.manner.wall_left;
-        let end = place_towards(centre, towards, radius);
-        let back = |turns: f64| {
-            let (s, c) = sin_cos(if ccw { -TAU * turns } else { TAU * turns });
-            let arm = end - centre;
-            centre + Vec2::new(c * arm.x - s * arm.y, s * arm.x + c * arm.y)
-        };
-        let places: Vec<Point2> = (0..PLACES).map(|k| back(f64::from(k) / f64::from(PLACES))).collect();
-        let top = self.top_around(&places, z);
-        if top <= z {
-            return self.descend(end, z);
-        }
-        let turns = ((top - z) / (TAU * radius * self.manner.ramp)).clamp(LEAST, 10_000.0);
-        let turns = if turns.fract() < LEAST { turns + LEAST } else { turns };
-        self.descend(back(turns.fract()), top);
-        self.tally.entries += hypot(TAU * radius * turns, top - z);
-        self.narrow(radius);
-        // At most 10 001.
-        self.arc(over(end, z), centre, ccw, turns.floor() as u32);
-    }
-
-    /// Down along a ring: to the end of the way that the slope asks for, round and round if need be. Where on the ring the
-    /// tip is then.
-    fn ramp(&mut self, z: f64, ring: &Ring, length: f64) -> usize {
-        let top = self.top_around(&ring.points, z);
-        let first = self.last().map_or(0, |p| closest(&ring.points, p.xy()));
-        self.descend(ring.points[first], top);
-        if top <= z {
-            return first;
-        }
-        let need = (top - z) / self.manner.ramp;
-        let n = ring.points.len();
-        let mut points = vec![ring.points[first]];
-        let (mut k, mut gone) = (first, 0.0);
-        // Whole vertices: a little more than is needed.
-        let most = ceil_to_usize(need / length).saturating_add(1).saturating_mul(n);
-        for _ in 0..most {
-            let next = (k + 1) % n;
-            gone += (ring.points[next] - ring.points[k]).norm();
-            points.push(ring.points[next]);
-            k = next;
-            if gone >= need {
-                break;
-            }
-        }
-        self.tally.entries += gone;
-        // Of a circle half its radius, of a long ring half its width.
-        self.narrow(enclosed(&ring.points).abs() / length);
-        self.run(&points, (top, z));
-        self.tally.rings -= gone;
-        k
-    }
-
-    fn narrow(&mut self, radius: f64) {
-        self.tally.narrowest = Some(self.tally.narrowest.map_or(radius, |r| r.min(radius)));
-    }
-
     /// A closed ring, from one of its points round to it.
     fn ring(&mut self, z: f64, ring: &Ring, start: usize) {
         let n = ring.points.len();
@@ -428,8 +215,9 @@ impl<'a> Path<'a> {
     }
 
     /// Along a chain of points, its height linear in its length.
-    fn run(&mut self, points: &[Point2], (from, to): (f64, f64)) {
-        let pieces = arcs::fit(points, self.manner.tolerance);
+    pub(super) fn run(&mut self, points: &[Point2], (from, to): (f64, f64)) {
+        // Not every control takes arcs that go down between points that are rounded: ways down are straight.
+        let pieces = arcs::fit(points, self.manner.tolerance, from == to);
         let Some(mut at) = points.first().copied() else { return };
         let mut lengths = Vec::with_capacity(pieces.len());
         for piece in &pieces {
@@ -449,11 +237,11 @@ impl<'a> Path<'a> {
         self.tally.rings += whole;
     }
 
-    fn cutter(&self) -> Cutter {
+    pub(super) fn cutter(&self) -> Cutter {
         self.ground.rest.cutter
     }
 
-    fn line(&mut self, to: Point3) {
+    pub(super) fn line(&mut self, to: Point3) {
         let cutter = self.cutter();
         if let Some(from) = self.at {
             self.stock.cut(cutter.reference(from), cutter.reference(to), &cutter);
@@ -462,7 +250,7 @@ impl<'a> Path<'a> {
         self.at = Some(to);
     }
 
-    fn arc(&mut self, to: Point3, centre: Point2, ccw: bool, turns: u32) {
+    pub(super) fn arc(&mut self, to: Point3, centre: Point2, ccw: bool, turns: u32) {
         let cutter = self.cutter();
         if let Some(from) = self.at {
             let (a, b) = (from.xy() - centre, to.xy() - centre);

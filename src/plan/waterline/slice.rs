@@ -18,6 +18,8 @@ pub(super) struct Pocket {
     pub inner: Vec<usize>,
     /// Its place farthest from the walls, and how far that is, mm.
     pub deepest: (Point2, f64),
+    /// How far its rings are from the walls, mm.
+    pub walls: f64,
     /// A part of it lies beside the blank.
     pub airy: bool,
 }
@@ -66,9 +68,9 @@ pub(super) fn slice(ground: &Ground, z: f64, (width, air): (f64, f64)) -> Option
     let mut inner: Vec<Option<usize>> = vec![None; grid.len()];
     for number in (0..=last).rev() {
         let from = count(number) * width;
-        inner = slice.layer(ground, (from, air), (number == 0).then_some(&walls), &inner);
+        inner = slice.layer(ground, from, (number == 0).then_some(&walls), &inner);
     }
-    slice.outer = (0..slice.pockets.len()).filter(|p| inner.contains(&Some(*p))).collect();
+    slice.outer.extend((0..slice.pockets.len()).filter(|p| inner.contains(&Some(*p))).collect::<Vec<_>>());
     Some(slice)
 }
 
@@ -77,16 +79,17 @@ impl Slice {
     fn layer(
         &mut self,
         ground: &Ground,
-        (from, air): (f64, f64),
+        from: f64,
         walls: Option<&Vec<Line>>,
         inner: &[Option<usize>],
     ) -> Vec<Option<usize>> {
         let grid = &ground.grid;
         let values: Vec<f64> = self.room.iter().map(|room| from - room).collect();
+        let within: Vec<bool> = (0..grid.len()).map(|k| values[k] <= 0.0 && ground.may_stand(k)).collect();
         let mut label: Vec<Option<usize>> = vec![None; grid.len()];
         for seed in 0..grid.len() {
-            if values[seed] <= 0.0 && label[seed].is_none() {
-                let pocket = self.flood(ground, (seed, air), &values, (&mut label, inner));
+            if within[seed] && label[seed].is_none() {
+                let pocket = self.flood(ground, seed, (&values, &within), (&mut label, inner));
                 self.pockets.push(pocket);
             }
         }
@@ -102,38 +105,55 @@ impl Slice {
             }
         };
         for line in curves {
-            let Some(pocket) = label[line.node].and_then(|p| self.pockets.get_mut(p)) else { continue };
-            pocket.rings.extend(over_blank(ground, line));
+            for ring in over_blank(ground, line) {
+                let beside = || ring.points.iter().flat_map(|p| grid.around(*p)).find_map(|k| label[k]);
+                let own = if ground.open { beside() } else { label[line.node] };
+                match own.and_then(|p| self.pockets.get_mut(p)) {
+                    Some(pocket) => pocket.rings.push(ring),
+                    // A corner without a node: only the walls themselves are worth it.
+                    None if walls.is_some() => self.lone(ring),
+                    None => {}
+                }
+            }
         }
         label
+    }
+
+    /// A piece of wall that has a pocket of its own.
+    fn lone(&mut self, ring: Ring) {
+        let Some(place) = ring.points.get(ring.points.len() / 2).copied() else { return };
+        self.outer.push(self.pockets.len());
+        self.pockets.push(Pocket {
+            rings: vec![ring],
+            deepest: (place, 0.0),
+            airy: true,
+            ..Pocket::default()
+        });
     }
 
     fn flood(
         &self,
         ground: &Ground,
-        (seed, air): (usize, f64),
-        values: &[f64],
+        seed: usize,
+        (values, within): (&[f64], &[bool]),
         (label, inner): (&mut [Option<usize>], &[Option<usize>]),
     ) -> Pocket {
         let grid = &ground.grid;
         let own = Some(self.pockets.len());
-        let mut pocket = Pocket { deepest: (grid.node(seed), self.room[seed]), ..Pocket::default() };
+        let (deepest, walls) = ((grid.node(seed), self.room[seed]), values[seed] + self.room[seed]);
+        let mut pocket = Pocket { deepest, walls, ..Pocket::default() };
         let mut stack = vec![seed];
         label[seed] = own;
         while let Some(k) = stack.pop() {
-            let p = grid.node(k);
-            let off = ground.blank.distance(p);
-            if off <= 0.0
-                && (self.room[k] > pocket.deepest.1 || ground.blank.distance(pocket.deepest.0) > 0.0)
-            {
-                pocket.deepest = (p, self.room[k]);
+            if self.room[k] > pocket.deepest.1 {
+                pocket.deepest = (grid.node(k), self.room[k]);
             }
-            pocket.airy |= ground.open && off >= air;
             if let Some(child) = inner[k].filter(|c| !pocket.inner.contains(c)) {
                 pocket.inner.push(child);
             }
             for next in grid.beside(k) {
-                if values[next] <= 0.0 && label[next].is_none() {
+                pocket.airy |= values[next] <= 0.0 && !within[next];
+                if within[next] && label[next].is_none() {
                     label[next] = own;
                     stack.push(next);
                 }

@@ -94,3 +94,55 @@ fn what_another_cutter_may_a_flat_one_may_not() {
     let found = refused(&cl, &target);
     assert!(!found.is_empty() && found.contains(&"E0820"), "{found:?}");
 }
+
+/// Rapids of a build, and the places at which cuts at its first level end, in order.
+fn moves_of(build: &Build) -> (Vec<crate::geom::Point3>, Vec<crate::geom::Point3>) {
+    use crate::cl::RecordKind;
+    let cl = build.cl.as_ref().expect("CL");
+    let first = cl.operations[0].guard.clearing.as_ref().expect("levels").levels[0].0;
+    let (mut rapids, mut cuts) = (Vec::new(), Vec::new());
+    for record in &cl.records {
+        match &record.kind {
+            RecordKind::Rapid(p) => rapids.push(*p),
+            RecordKind::Linear(p) if (p.z - first).abs() < 1e-9 => cuts.push(*p),
+            RecordKind::Circle(c) if (c.to.z - first).abs() < 1e-9 => cuts.push(c.to),
+            _ => {}
+        }
+    }
+    (rapids, cuts)
+}
+
+#[test]
+fn the_cutter_stays_low_between_cuts() {
+    let blocks = [(CAVITY, "(0, 0, -40), (60, 48, 0)", 2.0), (DOME, "(0, 0, -5), (60, 60, 11)", 13.0)];
+    for (net, block, safe) in blocks {
+        for cutter in ["BALL, 10", "FLAT, 10"] {
+            let build = roughed(net, block, cutter, "STEP, 3, WIDTH, 4, LEAVE, 0.5");
+            cleared(&build);
+            let (rapids, _) = moves_of(&build);
+            let high = rapids.iter().filter(|p| (p.z - safe).abs() < 1e-9).count();
+            // Down once and up once.
+            assert!(high <= 4 && rapids.len() > 12, "{cutter}: {high} of {}", rapids.len());
+        }
+    }
+}
+
+#[test]
+fn levels_go_inwards_or_outwards_as_they_are_told() {
+    let middle = crate::geom::Point2::new(30.0, 30.0);
+    let jobs = [(CAVITY, "(0, 0, -20), (60, 48, 0)", "OUT"), (DOME, "(0, 0, -5), (60, 60, 11)", "IN")];
+    for (net, block, usual) in jobs {
+        let ways = ["IN", "OUT", ""].map(|word| {
+            let options = format!("STEP, 4, WIDTH, 4, LEAVE, 0.5, {word}");
+            let build = roughed(net, block, "BALL, 10", options.trim_end_matches([',', ' ']));
+            cleared(&build);
+            moves_of(&build).1
+        });
+        // How far from the middle a level begins and ends.
+        let ends =
+            |cuts: &[crate::geom::Point3]| [cuts[0], cuts[cuts.len() - 1]].map(|p| (p.xy() - middle).norm());
+        let [inward, outward, without] = ways.each_ref().map(|cuts| ends(cuts));
+        assert!(inward[1] < inward[0] && outward[1] > outward[0] + 2.0, "{inward:?} {outward:?}");
+        assert_eq!(without, if usual == "IN" { inward } else { outward });
+    }
+}
