@@ -86,6 +86,23 @@ fn every_control_gets_a_proven_program_or_a_reason() {
     }
 }
 
+/// Lowering has one thing to say of many arcs.
+#[test]
+fn notes_on_many_arcs_are_told_once() {
+    let mut text = String::from("LOADTL/1\nSPINDL/2000,RPM,CLW\nFEDRAT/500,MMPM\nRAPID\nGOTO/10,0,0\n");
+    for turn in 1..=50_u32 {
+        let (x, z) = (if turn % 2 == 0 { 10 } else { -10 }, -0.5 * f64::from(turn));
+        let _ = writeln!(text, "CIRCLE/0,0,0,0,0,1,10\nGOTO/{x},0,{z}");
+    }
+    let files = MemoryFiles([("turns.cl".to_owned(), text + "FINI\n")].into());
+    let build = driver::build("turns.cl", &files, &options(&["grbl"], true));
+    let post_set = vec![("arcs.helix".to_owned(), "false".to_owned())];
+    let as_lines = driver::build("turns.cl", &files, &Options { post_set, ..options(&["grbl"], true) });
+    assert_eq!(messages(&build), "");
+    let told = messages(&as_lines);
+    assert!(told.lines().count() <= 21 && told.contains("more like it"), "{told}");
+}
+
 /// A long file with everything in it that a part may end beside.
 fn long() -> String {
     let mut text = String::from("LOADTL/1\nSPINDL/2000,RPM,CLW\nFEDRAT/500,MMPM\nRAPID\nGOTO/0,0,10\n");

@@ -75,6 +75,59 @@ fn an_unwritable_target_exits_2_and_leaves_nothing_behind() {
     assert_eq!(scratch.names(), ["file", "plate.apt"]);
 }
 
+const POINTS: &str =
+    "LOADTL/1\nSPINDL/1000,RPM,CLW\nFEDRAT/200,MMPM\nRAPID\nGOTO/10,0,5\nGOTO/20,0,0\nFINI\n";
+
+#[test]
+fn nothing_is_replaced_and_nothing_left_where_one_program_of_several_cannot_be_made() {
+    let scratch = Scratch::new("staged");
+    scratch.write("points.cl", POINTS).write("points.fanuc.nc", "the old program");
+    // Its words are too short for the points, which is found after the program of the first post has been proven.
+    scratch.write("short.post.toml", "inherits = \"fanuc\"\n[post]\ntitle = \"short\"\n[words.x]\nmax = 1\n");
+    let names = scratch.names();
+    for folder in [&[][..], &["--out-dir", "new/deep"]] {
+        let posts = ["build", "points.cl", "--post", "fanuc", "--post", "short.post.toml"];
+        let output = scratch.run(&[&posts, folder].concat());
+        assert_eq!(code(&output), 1, "{}", stderr(&output));
+        assert!(stderr(&output).contains("E0604"), "{}", stderr(&output));
+        assert_eq!(scratch.names(), names);
+    }
+    assert_eq!(scratch.read("points.fanuc.nc"), "the old program");
+}
+
+#[test]
+fn programs_that_are_staged_get_their_names_together() {
+    let scratch = Scratch::new("staging");
+    scratch.write("points.cl", POINTS).write("points.fanuc.nc", "the old program");
+    let posts = ["build", "points.cl", "--post", "fanuc", "--post", "heidenhain"];
+    let output = scratch.run(&posts);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    assert_eq!(scratch.names(), ["points.cl", "points.fanuc.nc", "points.heidenhain.H"]);
+    let beside = scratch.read("points.fanuc.nc");
+    assert!(beside.contains("G1 X20."), "{beside}");
+    // Into a directory that is made when all is proven; the certificate is that of the text.
+    let output = scratch.run(&[&posts[..], &["--out-dir", "new/deep", "--report", "report.json"]].concat());
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    assert_eq!(scratch.read("new/deep/points.fanuc.nc"), beside);
+    assert!(scratch.read("report.json").contains(&format!("\"bytes\": {}", beside.len())));
+    // A directory where a program should go: the other one is not replaced either.
+    scratch.write("points.heidenhain.H.d/x", "").write("points.fanuc.nc", "the old program");
+    let target = ["--post", "fanuc", "-o", "points.heidenhain.H.d"];
+    let output = scratch.run(&[&["build", "points.cl"], &target[..]].concat());
+    assert_eq!((code(&output), stderr(&output).contains("E0905")), (2, true), "{}", stderr(&output));
+    assert_eq!(scratch.read("points.fanuc.nc"), "the old program");
+    assert!(scratch.names().iter().all(|n| !n.ends_with(".tmp")), "{:?}", scratch.names());
+}
+
+#[test]
+fn the_source_map_of_a_cl_file_has_its_records() {
+    let scratch = Scratch::new("cl-map");
+    scratch.write("points.cl", POINTS);
+    let output = scratch.run(&["build", "points.cl", "--post", "fanuc", "--source-map", "map.json"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    assert!(scratch.read("map.json").contains("GOTO/ 20, 0, 0"), "{}", scratch.read("map.json"));
+}
+
 #[test]
 fn threads_and_repetition_do_not_change_a_byte() {
     let scratch = Scratch::new("threads");

@@ -117,6 +117,43 @@ fn orphans_are_reported_and_removed_when_accepting() {
 }
 
 #[test]
+fn line_ends_that_differ_are_said_and_not_shown_line_by_line() {
+    let scratch = Scratch::new("line-ends");
+    scratch.write("part.apt", PART);
+    assert_eq!(code(&scratch.run(&["test", "--accept"])), 0);
+    let golden = scratch.read("part.fanuc.golden.nc");
+    scratch.write("part.fanuc.golden.nc", golden.replace('\n', "\r\n"));
+    let output = scratch.run(&["test", "--filter", "fanuc"]);
+    assert_eq!(code(&output), 3);
+    assert_eq!(
+        stdout(&output),
+        "different part.apt fanuc\n          part.fanuc.golden.nc\n          only the line ends differ: CR LF in the \
+         golden file, LF in the new program; `*.golden.* -text` in .gitattributes keeps git from changing them\n          \
+         motion: the same\n0 ok, 1 different; --accept takes what is new and different and removes orphans\n"
+    );
+}
+
+#[test]
+fn two_programs_with_one_golden_file_are_refused() {
+    let scratch = Scratch::new("one-golden");
+    let points = "LOADTL/1\nSPINDL/100,RPM\nFEDRAT/5,MMPM\nRAPID\nGOTO/1,0,9\nGOTO/2,0,0\nFINI\n";
+    scratch.write("part.apt", PART).write("part.cls", points);
+    scratch.write("part.test.toml", "posts = [\"fanuc\"]\n");
+    for args in [&["test"][..], &["test", "--accept"]] {
+        let output = scratch.run(args);
+        assert_eq!(code(&output), 2, "{}", stdout(&output));
+        let message =
+            "part.fanuc.golden.nc would be the golden file of `part.apt fanuc` and of `part.cls fanuc`";
+        assert!(
+            stderr(&output).contains("E0909") && stderr(&output).contains(message),
+            "{}",
+            stderr(&output)
+        );
+    }
+    assert_eq!(scratch.names(), ["part.apt", "part.cls", "part.test.toml"]);
+}
+
+#[test]
 fn programs_that_are_no_tests_are_left_out_and_broken_ones_are_not() {
     let scratch = Scratch::new("golden-skip");
     scratch

@@ -1,4 +1,4 @@
-//! Arcs: a `CIRCLE` record and the points after it.
+//! Arcs: a `CIRCLE` (ISO 4343: `MOVARC`) record and the points after it.
 //!
 //! A record is trusted as far as its points lie on it. What lies on it within [`TRUST`] is an arc. Where start and end are
 //! at different distances from the centre by no more than [`SPIRAL`], the tool goes from one to the other about the centre,
@@ -27,6 +27,8 @@ pub(super) struct Pending {
     axis: Vec3,
     radius: Option<f64>,
     turns: u32,
+    /// It is known to be less than half a turn, even where its end is printed as its start.
+    short: bool,
     /// Points so far, where there may be many.
     points: Vec<Point3>,
 }
@@ -50,12 +52,19 @@ impl Pending {
     }
 }
 
+/// Turns that an arc of so many degrees begins.
+fn turns_of(angle: f64) -> f64 {
+    const ROUNDING: f64 = 1e-3;
+    ((angle.abs() - ROUNDING) / 360.0).floor().max(0.0) + 1.0
+}
+
 impl Reader<'_> {
-    /// `CIRCLE/ x, y, z, i, j, k[, r[, …]][, TIMES, n]`.
+    /// `CIRCLE/ x, y, z, i, j, k[, r[, …]][, TIMES, n]`, or `MOVARC/ x, y, z, i, j, k, r, ANGLE, degrees`.
     pub(super) fn circle(&mut self, s: &Statement) {
         let numbers = s.numbers();
         let [x, y, z, i, j, k, rest @ ..] = numbers.as_slice() else {
-            let message = format!("CIRCLE takes centre, axis and radius, and has {} numbers", numbers.len());
+            let word = s.major();
+            let message = format!("{word} takes centre, axis and radius, and has {} numbers", numbers.len());
             return self.complain(&codes::BAD_RECORD, message);
         };
         let Some(centre) = self.point([*x, *y, *z]) else { return };
@@ -64,9 +73,10 @@ impl Reader<'_> {
         if !(length > 0.0 && length.is_finite()) {
             return self.complain(&codes::BAD_RECORD, "the circle's axis has no length".to_owned());
         }
-        let times = s.after("TIMES").unwrap_or(1.0);
+        let times = s.after("TIMES").or_else(|| s.after("ANGLE").map(turns_of)).unwrap_or(1.0);
         if !(1.0..=MOST_TURNS).contains(&times) || times.fract() != 0.0 {
-            let message = format!("CIRCLE with TIMES, {times}: a whole number of 1 to {MOST_TURNS}");
+            let word = s.major();
+            let message = format!("{word} with {times} turns: a whole number of 1 to {MOST_TURNS}");
             return self.complain(&codes::BAD_RECORD, message);
         }
         let radius = rest.first().filter(|_| !s.has("TIMES") || rest.len() > 1);
@@ -75,6 +85,7 @@ impl Reader<'_> {
             axis: axis / length,
             radius: radius.map(|r| r.abs() * self.state.scale).filter(|r| *r > 0.0),
             turns: (times - 1.0) as u32,
+            short: s.after("ANGLE").is_some_and(|angle| angle.abs() < 180.0),
             points: Vec::new(),
         });
     }
@@ -166,6 +177,9 @@ impl Reader<'_> {
             self.state.at = Some(to);
             return;
         };
+        if pending.short && (to - start).norm() <= TRUST {
+            return self.cut_to(to);
+        }
         let (r0, _) = pending.place(start);
         let (r1, _) = pending.place(to);
         let radius = pending.radius.unwrap_or(r0);
@@ -206,7 +220,7 @@ impl Reader<'_> {
 
     /// An arc whose circle, sense and end are known.
     pub(super) fn known_arc(&mut self, centre: Point3, axis: Vec3, radius: f64, turns: u32, to: Point3) {
-        let pending = Pending { centre, axis, radius: Some(radius), turns, points: Vec::new() };
+        let pending = Pending { centre, axis, radius: Some(radius), turns, short: false, points: Vec::new() };
         self.arc_to(&pending, to);
     }
 

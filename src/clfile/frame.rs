@@ -1,4 +1,4 @@
-//! Coordinate systems: `MSYS/`, `CSYS/`, `TRNTYP/`.
+//! Coordinate systems: `MSYS/`, `CSYS/`, `MCS/`, `TRNTYP/`.
 //!
 //! Points are in the coordinate system in force. One for the whole file is the work's own; another one later would need the
 //! work moved or turned, which a program for three axes cannot do.

@@ -32,13 +32,30 @@ const LONGEST: usize = 1 << 20;
 pub struct Lines<'t> {
     text: &'t str,
     at: usize,
+    /// Bytes of a line that belong to the record.
+    width: usize,
 }
+
+/// Columns of a record on a punched card; the others number the cards.
+const CARD: usize = 72;
 
 impl<'t> Lines<'t> {
     /// From the start.
     #[must_use]
     pub fn new(text: &'t str) -> Lines<'t> {
-        Lines { text, at: usize::from(text.starts_with('\u{feff}')) * 3 }
+        Lines { text, at: usize::from(text.starts_with('\u{feff}')) * 3, width: usize::MAX }
+    }
+
+    /// The same, where `cards` without what stands behind column 72.
+    #[must_use]
+    pub fn of_cards(text: &'t str, cards: bool) -> Lines<'t> {
+        Lines { width: if cards { CARD } else { usize::MAX }, ..Lines::new(text) }
+    }
+
+    /// The whole text.
+    #[must_use]
+    pub fn text(&self) -> &'t str {
+        self.text
     }
 
     /// The next physical line, and where it starts.
@@ -54,7 +71,10 @@ impl<'t> Lines<'t> {
             _ => 0,
         };
         self.at = start + end + mark;
-        Some((rest.get(..end)?, start))
+        let line = rest.get(..end)?;
+        // Columns count bytes; a character across the last one belongs to neither part.
+        let record = if end <= self.width { line } else { line.get(..self.width).unwrap_or(line) };
+        Some((record, start))
     }
 
     /// The piece that starts with this line.

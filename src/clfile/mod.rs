@@ -29,11 +29,14 @@ pub mod scan;
 mod state;
 #[cfg(test)]
 mod tests;
+mod told;
 mod tool;
+mod unit;
 mod words;
 
 pub use producer::Producer;
 pub use reader::Reader;
+pub(crate) use told::told_once;
 
 /// How a CL file is to be read.
 #[derive(Debug, Clone, Default)]
@@ -44,6 +47,8 @@ pub struct Options {
     pub lenient: bool,
     /// Post words that the file lacks (`SPINDL`, `FEDRAT`, `UNITS`), as given with `-D NAME=VALUE`.
     pub defines: Vec<(String, String)>,
+    /// What stands behind column 72 of a line is no part of the record (`--card-columns`).
+    pub card_columns: bool,
 }
 
 /// The producer called so, or what is wrong with the name.

@@ -16,8 +16,8 @@ const NO_TURN: f64 = 1e-9;
 const LONGEST_SAID: usize = 24;
 /// Codes that do nothing a program must say.
 const HARMLESS: &[i64] = &[
-    1000, 1001, 1004, 1009, 1010, 1011, 1012, 1013, 1016, 1017, 1018, 1019, 1020, 1025, 1026, 1027, 1050,
-    20000, 20001, 20002, 20003, 20004, 20005, 20006, 20007, 20008, 20009, 20010, 20100, 2,
+    1004, 1009, 1010, 1011, 1012, 1013, 1016, 1017, 1019, 1020, 1026, 1027, 1050, 20000, 20001, 20002, 20003,
+    20004, 20005, 20006, 20007, 20008, 20009, 20010, 20100,
 ];
 
 impl<'t> Reader<'t> {
@@ -68,9 +68,15 @@ impl<'t> Reader<'t> {
             80 => {}
             81 => self.nci_first_hole(numbers),
             100 => self.nci_next_hole(numbers),
-            1002 => self.nci_tool(numbers),
-            1003 => self.state.ended = true,
+            1000..=1002 => self.nci_tool(code, numbers),
+            1003 => {
+                self.state.ended = true;
+                self.state.complete = true;
+            }
             1014 => self.nci_plane(numbers),
+            1018 => self.nci_not(1018, "starts a subprogram, and its calls are not followed"),
+            1025 if numbers.iter().all(|v| *v == 0.0) => {}
+            1025 => self.nci_not(1025, "holds canned text: stops or optional blocks"),
             _ => self.soften(&codes::UNKNOWN_RECORD, format!("the record {code} is not known"), None),
         }
     }
@@ -79,9 +85,12 @@ impl<'t> Reader<'t> {
     fn nci_plane(&mut self, n: &[f64]) {
         let turned = n.iter().take(9).enumerate().any(|(k, v)| (v - f64::from(k % 4 == 0)).abs() > NO_TURN);
         if turned && n.iter().any(|v| *v != 0.0) {
-            let message = "the record 1014 turns the tool plane, and the posts are for three axes".to_owned();
-            self.soften(&codes::NOT_CARRIED_OUT, message, None);
+            self.nci_not(1014, "turns the tool plane, and the posts are for three axes");
         }
+    }
+
+    fn nci_not(&mut self, code: i64, what: &str) {
+        self.soften(&codes::NOT_CARRIED_OUT, format!("the record {code} {what}"), None);
     }
 
     /// The control's compensation, which is a number of lines and arcs: without it the path is another one.
@@ -147,10 +156,11 @@ impl<'t> Reader<'t> {
         self.goto(&[x, y, z, u - x, v - y, w - z], 6);
     }
 
-    /// Program, block numbers, tool, offsets, plane, speed (negative: counter-clockwise), feed, coolant.
-    fn nci_tool(&mut self, n: &[f64]) {
+    /// Program, block numbers, tool, offsets, plane, speed (negative: counter-clockwise), feed, coolant. The start of the
+    /// file (1001) has the first tool; 1000 keeps the tool and may change the rest.
+    fn nci_tool(&mut self, code: i64, n: &[f64]) {
         let [_, _, _, tool, _, _, _, speed, feed, coolant, ..] = *n else {
-            return self.nci_short(1002, 10, n.len());
+            return self.nci_short(code, 10, n.len());
         };
         self.leave_cycle();
         self.end_operation();

@@ -5,7 +5,6 @@ use super::reader::Reader;
 use crate::cl::RecordKind;
 use crate::diag::codes::foreign as codes;
 use crate::ir::{Coolant, Feed, Gear, Spindle};
-use crate::units::LengthUnit;
 
 /// Words of a feed per minute, with the length they count in mm; 0: the file's unit.
 pub(super) const PER_MINUTE: &[(&str, f64)] =
@@ -233,12 +232,9 @@ impl Reader<'_> {
     }
 
     fn unit(&mut self, s: &Statement) {
-        match s.words().next() {
-            Some(w) if w.starts_with("MM") || w.starts_with("MILLI") => {
-                self.set_units(LengthUnit::Millimetre)
-            }
-            Some(w) if w.starts_with("IN") => self.set_units(LengthUnit::Inch),
-            _ => self.complain(&codes::BAD_RECORD, "the unit is MM or INCH".to_owned()),
+        match s.words().next().and_then(super::unit::of_word) {
+            Some(unit) => self.set_units(unit),
+            None => self.complain(&codes::BAD_RECORD, "the unit is MM or INCH".to_owned()),
         }
     }
 

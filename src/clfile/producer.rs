@@ -41,6 +41,8 @@ const SIGNS: &[(&str, Producer)] = &[
     ("TLON,GOFWD/", Producer::Catia),
     ("TPRINT/", Producer::Catia),
     ("HELICAL/", Producer::Catia),
+    ("MOVARC/", Producer::Plain),
+    ("CSI_TOOL_PATH", Producer::Plain),
 ];
 
 impl Producer {
@@ -66,6 +68,16 @@ impl Producer {
             Producer::Ncl => "ncl",
             Producer::Mastercam => "mastercam",
             Producer::Plain => "plain",
+        }
+    }
+
+    /// What its files end with, where they always do.
+    pub(super) fn end(self) -> Option<&'static str> {
+        match self {
+            Producer::Nx => Some("END-OF-PATH"),
+            Producer::Mastercam => Some("1003"),
+            Producer::Catia | Producer::Creo | Producer::SolidWorks | Producer::Ncl => Some("FINI"),
+            Producer::Plain => None,
         }
     }
 

@@ -1,13 +1,12 @@
 //! The reader: record by record, chunk by chunk.
 
-use std::collections::BTreeMap;
-
 use super::grammar::{self, Statement};
 use super::lines::{Lines, Piece, raw_word, without_number};
 use super::scan;
 use super::state::State;
+use super::told::Told;
 use super::words::{self, Class};
-use super::{Options, Producer, producer};
+use super::{Options, Producer, producer, unit};
 use crate::arena::{Arena, Handle};
 use crate::cl::{Cl, Operation, Record, RecordKind};
 use crate::diag::codes::{foreign as codes, semantics};
@@ -16,9 +15,6 @@ use crate::ir::{Origin, Tool};
 use crate::source::{FileId, Span};
 use crate::units::LengthUnit;
 
-/// Messages of one code at most; the rest are counted.
-const MOST_MESSAGES: u64 = 20;
-
 /// A record that is not text for people has at most this many bytes.
 const LONGEST_RECORD: usize = 1 << 16;
 /// Of a word that is not known, messages show this many characters.
@@ -26,7 +22,7 @@ const SHOWN: usize = 40;
 
 /// A line that says nothing: blank, or the marks at the ends of old files.
 fn nothing(line: &str) -> bool {
-    line.trim_matches(['%', '\u{1a}', ' ', '\t']).is_empty()
+    line.trim_matches(['%', '\u{1a}', '\u{feff}', ' ', '\t']).is_empty()
 }
 
 /// Reads a CL file.
@@ -47,8 +43,9 @@ pub struct Reader<'t> {
     pub(super) span: Span,
     /// Its origin, once a CL record came of it.
     origin: Option<Handle<Origin>>,
-    /// Messages by code.
-    told: BTreeMap<&'static str, u64>,
+    told: Told,
+    /// The file says its unit, or the command does.
+    unit_stated: bool,
     pub(super) axis_trouble: Option<AxisTrouble>,
     pub(super) missing: Vec<&'static str>,
     sink: Sink,
@@ -74,9 +71,10 @@ impl<'t> Reader<'t> {
     pub fn new(file: FileId, name: &str, text: &'t str, options: &Options) -> Reader<'t> {
         let producer =
             options.producer.or_else(|| producer::recognise(name, text)).unwrap_or(Producer::Plain);
-        let units = units(text, options);
+        let stated = unit::stated(text, options);
+        let units = stated.unwrap_or_default();
         let mut reader = Reader {
-            lines: Lines::new(text),
+            lines: Lines::of_cards(text, options.card_columns),
             file,
             producer,
             lenient: options.lenient,
@@ -89,7 +87,8 @@ impl<'t> Reader<'t> {
             records: Vec::new(),
             span: Span::new(file, 0, 0),
             origin: None,
-            told: BTreeMap::new(),
+            told: Told::default(),
+            unit_stated: stated.is_some(),
             axis_trouble: None,
             missing: Vec::new(),
             sink: Sink::default(),
@@ -307,13 +306,16 @@ impl<'t> Reader<'t> {
         self.state.continues = false;
         match s.major() {
             "GOTO" | "GODLTA" | "FROM" | "GOHOME" | "RAPID" | "MULTAX" | "TLAXIS" => self.motion(s),
-            "CIRCLE" => self.circle(s),
+            "CIRCLE" | "MOVARC" => self.circle(s),
             "CYCLE" => self.cycle(s),
             "NURBS" | "KNOT" | "CNTRL" => self.nurbs(s),
             "INDIRV" | "PSIS" | "TLON" | "TLLFT" | "TLRGT" | "HELICAL" => self.catia(s),
             "CUTTER" | "TLDATA" | "LOADTL" | "LOAD" | "TOOLNO" | "END-OF-PATH" => self.tool(s),
-            "MSYS" | "CSYS" | "TRNTYP" => self.frame(s),
-            "END" | "FINI" => self.state.ended = true,
+            "MSYS" | "CSYS" | "MCS" | "TRNTYP" => self.frame(s),
+            "END" | "FINI" => {
+                self.state.ended = true;
+                self.state.complete = true;
+            }
             "FEDRAT" | "SPINDL" | "COOLNT" | "DELAY" | "DWELL" | "STOP" | "OPSTOP" | "UNITS" | "UNIT"
             | "INTOL" | "OUTTOL" | "TOLER" | "CUTCOM" => self.process(s),
             other => self.other(other, s),
@@ -366,15 +368,33 @@ impl<'t> Reader<'t> {
         if let Some(trouble) = self.axis_trouble.take() {
             self.report_axis(&trouble);
         }
-        let rest: Vec<String> = self
-            .told
-            .iter()
-            .filter(|(_, n)| **n > MOST_MESSAGES)
-            .map(|(code, n)| format!("{} more of {code}", n - MOST_MESSAGES))
-            .collect();
-        if !rest.is_empty() {
-            let message = format!("not all messages are shown: {}", rest.join(", "));
-            self.sink.push(Diagnostic::new(&codes::MORE, Span::new(self.file, 0, 0), message));
+        self.doubts();
+        self.told.finish(Span::new(self.file, 0, 0), &mut self.sink);
+    }
+
+    /// What is odd about the file as a whole.
+    fn doubts(&mut self) {
+        self.span = Span::new(self.file, 0, 0);
+        if self.state.at.is_some() {
+            let end = self.producer.end().filter(|_| !self.state.complete);
+            if let Some(end) = end {
+                let message = format!("the file stops without {end}: it may not be all there");
+                self.complain(&codes::CUT_OFF, message);
+            }
+            if !self.unit_stated {
+                let message = format!("the file does not say its unit: {} is taken", self.units.symbol());
+                let help = "say it with -D UNITS=INCH or -D UNITS=MM";
+                self.tell(Diagnostic::new(&codes::UNIT_ASSUMED, self.span, message).help(help));
+            }
+        } else if self.told.is_empty() {
+            let silent = |line: &str| nothing(line) || line.trim_start().starts_with("$$");
+            let empty = self.lines.text().split(['\n', '\r']).all(silent);
+            let (code, message) = if empty {
+                (&codes::NO_RECORDS, "there is no CL record in this file")
+            } else {
+                (&codes::NO_MOTION, "no record of this file moves the tool")
+            };
+            self.complain(code, message.to_owned());
         }
     }
 
@@ -448,11 +468,7 @@ impl<'t> Reader<'t> {
     }
 
     pub(super) fn tell(&mut self, diagnostic: Diagnostic) {
-        let count = self.told.entry(diagnostic.code.id).or_default();
-        *count += 1;
-        if *count <= MOST_MESSAGES {
-            self.sink.push(diagnostic);
-        }
+        self.told.tell(diagnostic);
     }
 
     pub(super) fn set_units(&mut self, unit: LengthUnit) {
@@ -466,34 +482,4 @@ impl<'t> Reader<'t> {
 
 fn zero(s: &Statement) -> bool {
     s.numbers().iter().all(|v| *v == 0.0)
-}
-
-/// The unit: as given, else as the first record with a unit says, else mm.
-fn units(text: &str, options: &Options) -> LengthUnit {
-    let given = options.defines.iter().find(|(name, _)| name.eq_ignore_ascii_case("UNITS"));
-    if let Some((_, value)) = given {
-        return if value.to_uppercase().starts_with("IN") {
-            LengthUnit::Inch
-        } else {
-            LengthUnit::Millimetre
-        };
-    }
-    const LOOK: usize = 200_000;
-    for line in text.lines().take(LOOK) {
-        let word = line.trim_start();
-        let telling = ["UNIT", "FEDRAT", "CYCLE", "$$->"]
-            .iter()
-            .any(|w| word.get(..w.len()).is_some_and(|head| head.eq_ignore_ascii_case(w)));
-        if !telling {
-            continue;
-        }
-        let upper = word.to_uppercase();
-        if ["MMPM", "MMPR", "/MM", "/ MM"].iter().any(|w| upper.contains(w)) {
-            return LengthUnit::Millimetre;
-        }
-        if ["IPM", "IPR", "/IN", "/ IN"].iter().any(|w| upper.contains(w)) {
-            return LengthUnit::Inch;
-        }
-    }
-    LengthUnit::Millimetre
 }

@@ -61,6 +61,8 @@ pub(super) struct State {
     pub direction: Option<Vec3>,
     pub part_normal: Option<Vec3>,
     pub ended: bool,
+    /// What ends a file of its producer, or a tool path, was the last of its kind.
+    pub complete: bool,
     /// First line of a Mastercam pair.
     pub pair: Option<(i64, usize)>,
     /// What a Mastercam cycle keeps from its first hole on.
@@ -104,6 +106,7 @@ impl State {
             direction: None,
             part_normal: None,
             ended: false,
+            complete: false,
             pair: None,
             drilling: None,
         }

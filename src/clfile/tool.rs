@@ -80,6 +80,7 @@ impl Reader<'_> {
             _ => {
                 self.leave_cycle();
                 self.end_operation();
+                self.state.complete = true;
             }
         }
     }
@@ -124,6 +125,7 @@ impl Reader<'_> {
 
     /// `TOOL PATH/ operation, TOOL, tool`.
     pub(super) fn tool_path(&mut self, text: &str) {
+        self.state.complete = false;
         let parts: Vec<&str> = text.split(',').map(str::trim).collect();
         let word = parts.iter().rposition(|p| p.eq_ignore_ascii_case("TOOL")).unwrap_or(parts.len());
         let joined = |parts: &[&str]| parts.join(",");

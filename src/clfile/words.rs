@@ -65,9 +65,20 @@ const HARMLESS: &[&str] = &[
     "RANGE",
     "MODSYS",
     "LOADPT",
+    "HEADER",
+    "LIBRY",
+    "TMARK",
+    "PLABEL",
+    "PLOT",
+    "VERIFY",
+    "START",
+    "OPERATION",
+    "MCS2",
+    "CSI_TOOL_PATH",
 ];
 
 const MATTERS: &[(&str, &str)] = &[
+    ("ZERO", "it chooses a work offset"),
     ("ORIGIN", "it moves the program's origin"),
     ("TRANS", "it shifts the coordinates"),
     ("TRACUT", "it transforms the path"),
@@ -126,6 +137,7 @@ pub(super) fn already_so(word: &str, args: &[&str]) -> bool {
     const ENDED: &[&str] =
         &["OPSKIP", "SLOWDN", "CORNFD", "COUPLE", "POLYAX", "AIR", "TRACUT", "COPY", "INDEX", "PROBE"];
     match word {
+        "MODE" if args == ["MILL"] => true,
         "MODE" | "SET" => {
             matches!(args, ["MODE", "ABSOL"] | ["ABSOL"] | ["INCR", "OFF"] | ["MODE", "INCR", "OFF"])
         }
@@ -173,6 +185,7 @@ pub(super) const CARRIED_OUT: &[&str] = &[
     "COOLNT",
     "CYCLE",
     "CIRCLE",
+    "MOVARC",
     "CUTTER",
     "TLDATA",
     "LOADTL",

@@ -1,5 +1,6 @@
 //! `partwright build` and `partwright check`.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
@@ -7,8 +8,9 @@ use rayon::prelude::*;
 use super::args::{BuildArgs, CheckArgs, CommonArgs, Stage};
 use super::disk::{Disk, STDIN};
 use super::messages::{self, Messages, to_stderr};
-use super::output::{self, Product};
+use super::output::{self, Product, Staged};
 use super::progress::Progress;
+use super::staging::{Destination, Staging};
 use super::{Status, deps, report, source_map};
 use crate::diag::codes::{command as codes, foreign, verification};
 use crate::diag::{Diagnostic, Severity};
@@ -21,16 +23,22 @@ pub struct Compiled {
     pub path: PathBuf,
     /// The result.
     pub build: Build,
+    /// Programs that are in temporary files already, by output.
+    pub staged: BTreeMap<usize, Staged>,
 }
 
 impl Compiled {
     /// File name without extension.
     pub fn stem(&self) -> String {
-        if self.path.as_os_str() == STDIN {
-            return "stdin".to_owned();
-        }
-        self.path.file_stem().map_or_else(|| "program".to_owned(), |s| s.to_string_lossy().into_owned())
+        stem(&self.path)
     }
+}
+
+fn stem(path: &Path) -> String {
+    if path.as_os_str() == STDIN {
+        return "stdin".to_owned();
+    }
+    path.file_stem().map_or_else(|| "program".to_owned(), |s| s.to_string_lossy().into_owned())
 }
 
 /// Compiles and writes.
@@ -51,9 +59,11 @@ fn build_with(
     options.posts.clone_from(&args.post);
     options.post_set = args.overrides.pairs()?;
     options.keep_ast = args.emit.contains(&Stage::Ast);
-    options.only_nc = args.emit.iter().all(|s| *s == Stage::Nc);
+    options.only_nc = args.emit.iter().all(|s| *s == Stage::Nc) && args.source_map.is_none();
     options.check_only = !args.emit.iter().any(|s| matches!(s, Stage::Target | Stage::Nc));
-    let compiled = compile(&args.files, &options, &args.common, messages)?;
+    let destination = |path: &Path, output: &Output| nc_file(path, output, args);
+    let staging = args.emit.contains(&Stage::Nc).then_some(&destination as NcFile<'_>);
+    let mut compiled = compile_to(&args.files, &options, &args.common, messages, staging)?;
     let status = show(&compiled, messages);
     let planned = plan_products(&compiled, args)?;
     if let Some(path) = &args.deps {
@@ -68,7 +78,8 @@ fn build_with(
     if status != Status::Done {
         return Ok(status);
     }
-    let mut products: Vec<Product> = planned.iter().filter_map(|p| p.make(&compiled)).collect();
+    let in_memory = planned.iter().filter(|p| !p.is_staged(&compiled));
+    let mut products: Vec<Product> = in_memory.filter_map(|p| p.make(&compiled)).collect();
     if let Some(path) = &args.report {
         products.push(report::product(path, &compiled, &planned));
     }
@@ -78,7 +89,8 @@ fn build_with(
     if let Some(folder) = &args.out_dir {
         output::make_folder(folder)?;
     }
-    output::write_all(&products)?;
+    let staged = compiled.iter_mut().flat_map(|one| core::mem::take(&mut one.staged).into_values());
+    output::write_with(staged.collect(), &products)?;
     if messages.for_people() && args.emit.contains(&Stage::Nc) {
         to_stderr(&report::summary(&compiled, &planned));
     }
@@ -100,7 +112,7 @@ pub fn driver_options(common: &CommonArgs) -> Result<driver::Options, Diagnostic
     }
     let defines = common.define.iter().map(|d| define(d)).collect::<Result<_, _>>()?;
     let producer = common.producer.as_deref().map(producer).transpose()?;
-    let cl = clfile::Options { producer, lenient: common.lenient, defines: Vec::new() };
+    let cl = clfile::Options { producer, lenient: common.lenient, ..clfile::Options::default() };
     Ok(driver::Options { defines, cl, card_columns: common.card_columns, ..driver::Options::default() })
 }
 
@@ -130,6 +142,9 @@ fn define(given: &str) -> Result<(String, String), Diagnostic> {
     }
 }
 
+/// The file of the NC program of an output of a source file.
+type NcFile<'a> = &'a (dyn Fn(&Path, &Output) -> PathBuf + Sync);
+
 /// Compiles every file, in parallel when there are several; the order stays.
 pub fn compile(
     files: &[PathBuf],
@@ -137,15 +152,28 @@ pub fn compile(
     common: &CommonArgs,
     messages: Messages,
 ) -> Result<Vec<Compiled>, Diagnostic> {
+    compile_to(files, options, common, messages, None)
+}
+
+/// The same; what has been proven goes to temporary files at once where its file is known.
+fn compile_to(
+    files: &[PathBuf],
+    options: &driver::Options,
+    common: &CommonArgs,
+    messages: Messages,
+    nc_file: Option<NcFile<'_>>,
+) -> Result<Vec<Compiled>, Diagnostic> {
     let what = match files {
         [only] => format!("compiling {}", only.display()),
         _ => format!("compiling {} programs", files.len()),
     };
     let progress = messages.for_people().then(|| Progress::start(what));
     let one = |path: &PathBuf| {
-        let mut build = driver::build(&path.to_string_lossy(), &Disk::for_main(path), options);
+        let destination = nc_file.map(|file| move |output: &Output| file(path, output));
+        let staging = Staging::new(destination.as_ref().map(|d| d as Destination<'_>));
+        let mut build = driver::build_to(&path.to_string_lossy(), &Disk::for_main(path), options, &staging);
         messages::deny(&mut build.diagnostics, &common.deny);
-        Compiled { path: path.clone(), build }
+        Compiled { path: path.clone(), build, staged: staging.into_staged() }
     };
     let compiled = if let [only] = files { vec![one(only)] } else { files.par_iter().map(one).collect() };
     drop(progress);
@@ -211,6 +239,12 @@ pub struct Planned {
 }
 
 impl Planned {
+    /// Whether it is in a temporary file already.
+    fn is_staged(&self, compiled: &[Compiled]) -> bool {
+        let staged = compiled.get(self.source).zip(self.output);
+        self.stage == Stage::Nc && staged.is_some_and(|(one, output)| one.staged.contains_key(&output))
+    }
+
     fn make(&self, compiled: &[Compiled]) -> Option<Product> {
         let build = &compiled.get(self.source)?.build;
         let output = self.output.and_then(|i| build.outputs.get(i));
@@ -257,20 +291,27 @@ fn plan_products(compiled: &[Compiled], args: &BuildArgs) -> Result<Vec<Planned>
 }
 
 fn destination(one: &Compiled, output: Option<usize>, stage: Stage, args: &BuildArgs) -> PathBuf {
-    if let Some(path) = &args.output {
-        return path.clone();
-    }
     let post = output.and_then(|i| one.build.outputs.get(i));
     let file = match (stage, post) {
-        (Stage::Nc, Some(post)) => format!("{}.{}.{}", one.stem(), post.post, post.extension),
+        (Stage::Nc, Some(post)) => return nc_file(&one.path, post, args),
         (Stage::Target, Some(post)) => format!("{}.{}.target", one.stem(), post.post),
         (stage, _) => format!("{}.{}", one.stem(), stage_name(stage)),
     };
-    match &args.out_dir {
-        Some(folder) => folder.join(file),
-        None if stage != Stage::Nc => PathBuf::from("-"),
-        None if one.path.as_os_str() == STDIN => PathBuf::from(file),
-        None => one.path.with_file_name(file),
+    match (&args.output, &args.out_dir) {
+        (Some(path), _) => path.clone(),
+        (None, Some(folder)) => folder.join(file),
+        (None, None) => PathBuf::from("-"),
+    }
+}
+
+/// Where the NC program of an output goes.
+fn nc_file(source: &Path, output: &Output, args: &BuildArgs) -> PathBuf {
+    let file = format!("{}.{}.{}", stem(source), output.post, output.extension);
+    match (&args.output, &args.out_dir) {
+        (Some(path), _) => path.clone(),
+        (None, Some(folder)) => folder.join(file),
+        (None, None) if source.as_os_str() == STDIN => PathBuf::from(file),
+        (None, None) => source.with_file_name(file),
     }
 }
 

@@ -104,8 +104,17 @@ fn read_limited(source: impl Read, largest: u64) -> Result<Vec<u8>, FileError> {
     Ok(bytes)
 }
 
-/// Bytes that are not UTF-8 become replacement characters.
+/// UTF-16 by its mark; of the rest, bytes that are not UTF-8 become replacement characters.
 fn decode_anyhow(bytes: Vec<u8>) -> String {
+    let wide = |rest: &[u8], unit: fn([u8; 2]) -> u16| {
+        let units: Vec<u16> = rest.as_chunks::<2>().0.iter().map(|pair| unit(*pair)).collect();
+        String::from_utf16_lossy(&units)
+    };
+    match bytes.as_slice() {
+        [0xff, 0xfe, rest @ ..] => return wide(rest, u16::from_le_bytes),
+        [0xfe, 0xff, rest @ ..] => return wide(rest, u16::from_be_bytes),
+        _ => {}
+    }
     String::from_utf8(bytes).unwrap_or_else(|e| String::from_utf8_lossy(e.as_bytes()).into_owned())
 }
 
@@ -141,6 +150,18 @@ fn tidy(path: &Path) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn files_of_other_systems_are_read_whatever_their_encoding() {
+        let text = "GOTO/ 1, 2, 3\n";
+        let wide = |unit: fn(u16) -> [u8; 2]| {
+            "\u{feff}GOTO/ 1, 2, 3\n".encode_utf16().flat_map(unit).collect::<Vec<u8>>()
+        };
+        assert_eq!(decode_anyhow(wide(u16::to_le_bytes)), text);
+        assert_eq!(decode_anyhow(wide(u16::to_be_bytes)), text);
+        assert_eq!(decode_anyhow(text.into()), text);
+        assert_eq!(decode_anyhow(b"Geh\xe4use".to_vec()), "Geh\u{fffd}use");
+    }
 
     #[test]
     fn names_are_tidied() {

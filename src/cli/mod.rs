@@ -22,6 +22,7 @@ mod progress;
 mod report;
 mod schema;
 mod source_map;
+mod staging;
 mod test;
 
 use args::{Cli, Verb};

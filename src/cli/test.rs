@@ -1,5 +1,6 @@
 //! `partwright test`.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use rayon::prelude::*;
@@ -43,6 +44,7 @@ pub fn test(args: &TestArgs, messages: Messages) -> Result<Status, Diagnostic> {
     if run.outcomes.is_empty() {
         return Err(nothing(args));
     }
+    refuse_clashes(&run)?;
     let status = status(&run);
     if args.accept {
         accept(&run)?;
@@ -193,6 +195,23 @@ fn status(run: &Run) -> Status {
 fn accepted_status(run: &Run) -> Status {
     let left = run.outcomes.iter().any(|o| matches!(o.verdict, Verdict::Messages { .. }));
     if left { Status::Differs } else { Status::Done }
+}
+
+/// Two tests with one golden file: what one accepts the other would not make.
+fn refuse_clashes(run: &Run) -> Result<(), Diagnostic> {
+    let mut owners: BTreeMap<&str, String> = BTreeMap::new();
+    for outcome in run.outcomes.iter().filter(|o| !o.golden.is_empty()) {
+        if let Some(other) = owners.insert(&outcome.golden, outcome.name()) {
+            let message = format!(
+                "{} would be the golden file of `{other}` and of `{}`",
+                outcome.golden,
+                outcome.name()
+            );
+            return Err(Diagnostic::global(&command::OUTPUT_CLASH, message)
+                .help("give one of the programs or variants another name"));
+        }
+    }
+    Ok(())
 }
 
 fn accept(run: &Run) -> Result<(), Diagnostic> {

@@ -88,24 +88,66 @@ impl Build {
     }
 }
 
+/// Takes proven texts as they are made, so that not all of them are in memory until the last one is proven.
+pub trait Shelf: Sync {
+    /// Takes the text of the output with this index; with `false` it stays in [`Output::proven`].
+    fn put(&self, index: usize, output: &Output, text: &str) -> bool;
+}
+
+/// Takes nothing.
+struct NoShelf;
+
+impl Shelf for NoShelf {
+    fn put(&self, _: usize, _: &Output, _: &str) -> bool {
+        false
+    }
+}
+
+/// Hands the text of a proven output to the shelf.
+fn shelve(index: usize, output: &mut Output, shelf: &dyn Shelf) {
+    let taken = output.proven.as_ref().is_some_and(|proven| shelf.put(index, output, proven.text()));
+    if let Some(proven) = output.proven.as_mut().filter(|_| taken) {
+        proven.let_go();
+    }
+}
+
 /// Compiles the program in file `main`.
 #[must_use]
 pub fn build(main: &str, files: &dyn FileProvider, options: &Options) -> Build {
+    build_to(main, files, options, &NoShelf)
+}
+
+/// Compiles the program in file `main`; texts that `shelf` takes are not in the outputs. A text is taken when it has been
+/// proven, and before it is known whether those of other posts can be: nothing may come of it when the build has errors.
+#[must_use]
+pub fn build_to(main: &str, files: &dyn FileProvider, options: &Options, shelf: &dyn Shelf) -> Build {
     let mut build = Build::default();
     let mut sink = Sink::default();
     let files = Recorder { files, names: Mutex::default() };
+    let mut of_cl = None;
     match read_main(main, &files, options) {
         Ok((name, text)) => {
             let file = build.sources.add(name, text);
             match cl_file(&build.sources, file, options) {
-                Some(cl) => cl_stages(&mut build, file, &files, &cl, options, &mut sink),
-                None => stages(&mut build, file, &files, options, &mut sink),
+                Some(cl) => {
+                    of_cl = Some(file);
+                    cl_stages(&mut build, (file, &cl), &files, options, shelf, &mut sink);
+                }
+                None => {
+                    stages(&mut build, file, &files, options, &mut sink);
+                    for (index, output) in build.outputs.iter_mut().enumerate() {
+                        shelve(index, output, shelf);
+                    }
+                }
             }
         }
         Err(error) => sink.push(unreadable(main, &error)),
     }
     build.inputs = files.names.into_inner().unwrap_or_else(PoisonError::into_inner);
     build.diagnostics = in_source_order(sink.into_items());
+    if let Some(file) = of_cl {
+        build.diagnostics = clfile::told_once(file, core::mem::take(&mut build.diagnostics));
+    }
     build
 }
 
@@ -132,23 +174,24 @@ fn cl_file(sources: &SourceMap, file: FileId, options: &Options) -> Option<clfil
         producer: Some(producer),
         lenient: options.cl.lenient,
         defines: options.defines.clone(),
+        card_columns: options.card_columns,
     })
 }
 
 /// From a CL file on.
 fn cl_stages(
     build: &mut Build,
-    file: FileId,
+    (file, how): (FileId, &clfile::Options),
     files: &dyn FileProvider,
-    how: &clfile::Options,
     options: &Options,
+    shelf: &dyn Shelf,
     sink: &mut Sink,
 ) {
     let source = build.sources.file(file);
     let (name, text) = (source.name.clone(), source.text.clone());
     if options.only_nc && !options.check_only {
         let cl_file = parts::ClFile { file, name: &name, text: &text, how };
-        build.outputs = parts::make(&cl_file, options, files, &mut build.sources, sink);
+        build.outputs = parts::make(&cl_file, options, (files, shelf), &mut build.sources, sink);
         return;
     }
     let (cl, messages) = clfile::Reader::new(file, &name, &text, how).whole();
@@ -160,7 +203,7 @@ fn cl_stages(
     if !options.check_only {
         let wanted = targets::wanted(options, &targets::Machines::default(), sink);
         let ready = targets::ready(cl.units, &wanted, options, files, &mut build.sources, sink);
-        let made = targets::make(&cl, &ready, &build.sources);
+        let made = targets::make(&cl, &ready, &build.sources, options.only_nc);
         sink.append(made.messages);
         build.outputs = made.outputs;
     }
@@ -234,7 +277,7 @@ fn back(build: &mut Build, files: &dyn FileProvider, options: &Options, sink: &m
     };
     let wanted = targets::wanted(options, &machines, sink);
     let ready = targets::ready(ir.units, &wanted, options, files, &mut build.sources, sink);
-    let (cl, made) = closer(ir, (cl, &mut planned), &ready, &build.sources);
+    let (cl, made) = closer(ir, (cl, &mut planned), &ready, &build.sources, options.only_nc);
     build.cl = Some(cl);
     sink.append(planned);
     sink.append(made.messages);
@@ -248,8 +291,9 @@ fn closer(
     (mut cl, planned): (Cl, &mut Sink),
     ready: &[targets::Ready],
     sources: &SourceMap,
+    only_nc: bool,
 ) -> (Cl, targets::Made) {
-    let mut made = targets::make(&cl, ready, sources);
+    let mut made = targets::make(&cl, ready, sources, only_nc);
     let mut closer = Closer::default();
     for round in 1..plan::closer::ROUNDS {
         if made.short.is_empty() {
@@ -261,7 +305,7 @@ fn closer(
         let mut told = Sink::default();
         let Some(next) = plan::plan_closer(ir, &closer, &mut told) else { break };
         *planned = told;
-        made = targets::make(&next, ready, sources);
+        made = targets::make(&next, ready, sources, only_nc);
         cl = next;
     }
     (cl, made)

@@ -6,7 +6,7 @@
 use std::sync::mpsc::{Receiver, sync_channel};
 
 use super::targets::{self, Machines, Ready};
-use super::{Options, Output};
+use super::{Options, Output, Shelf, shelve};
 use crate::arena::Handle;
 use crate::cl::{Cl, RecordKind};
 use crate::clfile::{self, Reader};
@@ -51,7 +51,7 @@ struct Survey {
 pub(super) fn make(
     file: &ClFile<'_>,
     options: &Options,
-    files: &dyn FileProvider,
+    (files, shelf): (&dyn FileProvider, &dyn Shelf),
     sources: &mut SourceMap,
     sink: &mut Sink,
 ) -> Vec<Output> {
@@ -71,12 +71,14 @@ pub(super) fn make(
     let sources = &*sources;
     ready
         .iter()
-        .map(|ready| {
+        .enumerate()
+        .map(|(index, ready)| {
             let mut output = ready.output(survey.cl.units);
             output.proven = one(file, &survey, ready, sink);
             if let Some(proven) = &mut output.proven {
                 targets::locate(proven, sources);
             }
+            shelve(index, &mut output, shelf);
             output
         })
         .collect()

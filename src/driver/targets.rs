@@ -118,11 +118,18 @@ pub(super) struct Made {
     pub short: Vec<Shortfall>,
 }
 
-/// Makes the program of every post.
-pub(super) fn make(cl: &Cl, ready: &[Ready], sources: &SourceMap) -> Made {
+/// Makes the program of every post; with `only_nc`, what it was lowered to is not kept.
+pub(super) fn make(cl: &Cl, ready: &[Ready], sources: &SourceMap, only_nc: bool) -> Made {
+    let one = |ready: &Ready| {
+        let mut made = one(cl, ready, sources);
+        if only_nc {
+            (made.output.target, made.output.lines) = (None, Vec::new());
+        }
+        made
+    };
     let made: Vec<One> = match ready {
-        [only] => vec![one(cl, only, sources)],
-        several => several.par_iter().map(|r| one(cl, r, sources)).collect(),
+        [only] => vec![one(only)],
+        several => several.par_iter().map(one).collect(),
     };
     let mut all = Made { outputs: Vec::new(), messages: Sink::default(), short: Vec::new() };
     let curable = made.iter().all(|one| one.output.proven.is_some() || !one.short.is_empty());

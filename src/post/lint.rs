@@ -213,6 +213,7 @@ impl Lint<'_> {
             self.alike(place, message);
         }
         self.switches();
+        self.planes();
         let mut owners: BTreeMap<&str, &str> = BTreeMap::new();
         for (group, rules) in &spec.groups {
             for code in &rules.codes {
@@ -240,6 +241,32 @@ impl Lint<'_> {
         let mut alike = Vec::new();
         for (i, (path, code)) in switches.iter().enumerate().filter(|(_, (_, code))| !code.is_empty()) {
             for (other, _) in switches.iter().take(i).filter(|(_, c)| c == code) {
+                let place = if self.own(path) { path } else { other };
+                alike.push((*place, format!("`{other}` and `{path}` are both `{code}`")));
+            }
+        }
+        alike.into_iter().for_each(|(place, message)| self.alike(place, message));
+    }
+}
+
+impl Lint<'_> {
+    /// Planes that are claimed and cannot be told apart.
+    fn planes(&mut self) {
+        let spec = &self.dialect.spec;
+        let codes = [
+            ("xy", "codes.plane-xy", &spec.codes.plane_xy),
+            ("zx", "codes.plane-zx", &spec.codes.plane_zx),
+            ("yz", "codes.plane-yz", &spec.codes.plane_yz),
+        ];
+        let printed = spec.arcs.enabled && spec.patterns.arc.iter().any(|item| item == "plane");
+        let claimed = |plane: &str| spec.arcs.planes.iter().any(|p| p == plane);
+        let wanted: Vec<_> = codes
+            .into_iter()
+            .filter(|(plane, _, code)| printed && claimed(plane) && !code.is_empty())
+            .collect();
+        let mut alike = Vec::new();
+        for (i, (_, path, code)) in wanted.iter().enumerate() {
+            for (_, other, _) in wanted.iter().take(i).filter(|(_, _, c)| c == code) {
                 let place = if self.own(path) { path } else { other };
                 alike.push((*place, format!("`{other}` and `{path}` are both `{code}`")));
             }

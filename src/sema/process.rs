@@ -235,7 +235,10 @@ impl Analyser<'_> {
                 if !numbers.is_empty() {
                     problem = problem.note(format!("there are the numbers {}", numbers.join(", ")));
                 }
-                self.report(problem.help(format!("write `T{wanted} = CUTTER/ …, NUMBER, {wanted}` above")));
+                let help = format!("write `T{wanted} = CUTTER/ …, NUMBER, {wanted}` above");
+                self.report(
+                    problem.help(help).help("a CL file of a CAM system is posted with `partwright cl`"),
+                );
                 self.state.tool = Setting::Unknown;
             }
         }

@@ -99,6 +99,10 @@ impl Proven {
     pub fn certificate(&self) -> &Certificate {
         &self.certificate
     }
+    /// Lets go of the text, once somebody else keeps it; [`Proven::text`] is empty from then on.
+    pub(crate) fn let_go(&mut self) {
+        self.text = String::new();
+    }
     /// Says where the operations stand in the source.
     pub fn locate(&mut self, place: impl Fn(crate::source::Span) -> Place) {
         self.certificate.locate(place);

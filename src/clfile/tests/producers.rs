@@ -250,3 +250,37 @@ fn mastercam_swapped_ends_of_holes() {
     let (cl, codes) = drilled("81\n0 10. 0. 50. 0. 120. 0. 0. 0. 0. 50. 3. 1. 0. 10. 0. -18. 0 1");
     assert_eq!((cycles(&cl)[0].depth, codes), (19.0, vec![]));
 }
+
+#[test]
+fn mastercam_arcs_of_either_sense_are_cut_and_the_start_of_the_file_has_the_first_tool() {
+    let text = "1050\n9.0 by hand\n1001\n0 100 10 6 6 6 0 2000. 300. 1\n0\n0 20. 0. 5. -2. 0\n1\n0 20. 0. -1. 150. 0\n\
+                3\n0 0 0. 20. -1. 0. 0. -1. 300. 0 0\n2\n0 0 20. 0. -1. 0. 0. -1. 300. 0 0\n1003\n0\n";
+    let (cl, codes) = read_as(text, Some(Producer::Mastercam), false);
+    assert_eq!((kinds(&cl).as_str(), codes.as_slice()), ("RLCC", [""; 0].as_slice()));
+    let senses: Vec<f64> = circles(&cl).iter().map(|c| c.axis.z).collect();
+    assert_eq!(senses, [1.0, -1.0]);
+    assert_eq!(cl.tools.iter().map(|(_, t)| t.number).collect::<Vec<_>>(), [Some(6)]);
+}
+
+#[test]
+fn mastercam_records_that_repeat_or_stop_are_refused() {
+    let text =
+        "1001\n0 100 10 6 6 6 0 2000. 300. 1\n0\n0 0 0 5 -2. 0\n1018\n1 0\n1025\n1 0\n1025\n0 0\n1003\n0\n";
+    let (_, codes) = read_as(text, Some(Producer::Mastercam), false);
+    assert_eq!(codes.iter().filter(|c| **c == "E1003").count(), 2);
+}
+
+#[test]
+fn arcs_of_iso_4343_have_an_angle() {
+    let arc = |angle: &str, end: &str| {
+        let body = format!("MODE/MILL\nMOVARC/ 0., 0., 5., 0., 0., 1., 10., ANGLE, {angle}\nGOTO/ {end}");
+        let (cl, codes) = read(&framed(&body));
+        assert_eq!(codes, [""; 0]);
+        (kinds(&cl), circles(&cl).first().map(|c| c.turns))
+    };
+    assert_eq!(arc("90.", "0, 10, 5"), ("RC".to_owned(), Some(0)));
+    assert_eq!(arc("360.", "10, 0, 5"), ("RC".to_owned(), Some(0)));
+    assert_eq!(arc("450.", "0, 10, 3"), ("RC".to_owned(), Some(1)));
+    // A short arc whose end is printed as its start is no full circle.
+    assert_eq!(arc("0.01", "10, 0.0017, 5").0, "RL");
+}

@@ -93,6 +93,7 @@ const EXAMPLES: &[(&str, &[&str])] = &[
             "CYCLE/ DRILL, REAM, FEDTO, 12, MMPM, 60, RAPTO, 2\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
         ],
     ),
+    ("MOVARC", &["MOVARC/ 0, 0, 5, 0, 0, 1, 10, ANGLE, 90\nGOTO/ 0, 10, 5"]),
     (
         "CIRCLE",
         &[

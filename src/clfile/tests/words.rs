@@ -2,7 +2,9 @@
 
 use super::{framed, kinds, read, read_as};
 use crate::cl::{CycleKind, RecordKind, RetractTo};
+use crate::clfile::{Options, Producer, Reader};
 use crate::ir::{Feed, Gear, Spindle};
+use crate::source::FileId;
 
 #[test]
 fn nothing_is_dropped_in_silence() {
@@ -61,7 +63,7 @@ fn harmless_words_and_zero_shifts_pass() {
 fn what_is_missing_is_said_once() {
     let (_, codes) = read("RAPID\nGOTO/0,0,5\nGOTO/1,0,5\nGOTO/2,0,5\n");
     assert_eq!(codes.len(), 3, "{codes:?}");
-    let defines = [("SPINDL", "1200"), ("FEDRAT", "300"), ("LOADTL", "1")];
+    let defines = [("SPINDL", "1200"), ("FEDRAT", "300"), ("LOADTL", "1"), ("UNITS", "MM")];
     let defines = defines.map(|(a, b)| (a.to_owned(), b.to_owned())).to_vec();
     let options = crate::clfile::Options { defines, ..Default::default() };
     let text = "RAPID\nGOTO/0,0,5\nGOTO/1,0,5\n";
@@ -197,7 +199,12 @@ fn lines_end_as_any_system_ends_them() {
 
 #[test]
 fn messages_of_one_code_are_counted_after_the_first_twenty() {
-    let (_, codes) = read(&framed(&"FOOBAR/ 1\n".repeat(30)));
+    let words: String = (b'A'..=b'Z')
+        .chain(b'A'..=b'D')
+        .enumerate()
+        .map(|(i, c)| format!("FOO{}{i}/ 1\n", char::from(c)))
+        .collect();
+    let (_, codes) = read(&framed(&words));
     assert_eq!((codes.len(), codes.last().copied()), (21, Some("N1014")));
 }
 
@@ -258,4 +265,34 @@ fn chunks_are_the_whole() {
         joined += &kinds(&chunk);
     }
     assert_eq!(joined, kinds(&whole));
+}
+
+#[test]
+fn a_cause_is_told_once_with_how_often_it_came() {
+    let body = "FEEDRT/1\nGOTO/1,1,1\nFEEDRT/2\nGOTO/2,2,2\nFEEDRT/3\nCOOLNT/THRU\nCOOLNT/THRU\nSPINFL/4";
+    let options = Options::default();
+    let text = framed(body);
+    let (_, sink) = Reader::new(FileId(0), "part.cl", &text, &options).whole();
+    let told: Vec<String> = sink.into_items().into_iter().map(|d| d.message).collect();
+    assert_eq!(
+        told,
+        [
+            "the record `FEEDRT` is not known (and 2 more like it)",
+            "COOLNT with THRU cannot be carried out (and 1 more like it)",
+            "the record `SPINFL` is not known",
+        ]
+    );
+}
+
+#[test]
+fn an_empty_file_is_an_error_and_one_that_moves_nothing_a_warning() {
+    for empty in ["", "\n\r\n\t \n", "$$ nothing\n$$ at all", "%\n\u{1a}", "\u{feff}"] {
+        assert_eq!(read(empty).1, ["E1016"], "{empty:?}");
+    }
+    assert_eq!(read_as("", Some(Producer::Mastercam), false).1, ["E1016"]);
+    for still in ["PARTNO X\nFINI\n", "REMARK by hand\nMULTAX/ON\nFINI\n", "LOADTL/1\nCOOLNT/ON\n"] {
+        assert_eq!(read(still).1, ["W1018"], "{still:?}");
+    }
+    // What is wrong is told, and not that nothing moves.
+    assert_eq!(read("GOTO/1\n").1, ["E1002"]);
 }

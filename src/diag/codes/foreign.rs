@@ -107,6 +107,34 @@ pub const NO_TOOL_NUMBER: Code = Code {
     page: include_str!("../../../docs/diagnostics/W1015.md"),
 };
 
+/// a CL file is empty.
+pub const NO_RECORDS: Code = Code {
+    id: "E1016",
+    title: "a CL file is empty",
+    page: include_str!("../../../docs/diagnostics/E1016.md"),
+};
+
+/// a CL file does not say its unit.
+pub const UNIT_ASSUMED: Code = Code {
+    id: "W1017",
+    title: "a CL file does not say its unit",
+    page: include_str!("../../../docs/diagnostics/W1017.md"),
+};
+
+/// a CL file moves nothing.
+pub const NO_MOTION: Code = Code {
+    id: "W1018",
+    title: "a CL file moves nothing",
+    page: include_str!("../../../docs/diagnostics/W1018.md"),
+};
+
+/// a CL file stops without its end.
+pub const CUT_OFF: Code = Code {
+    id: "W1019",
+    title: "a CL file stops without its end",
+    page: include_str!("../../../docs/diagnostics/W1019.md"),
+};
+
 /// All codes of this area.
 pub const ALL: &[&Code] = &[
     &UNKNOWN_RECORD,
@@ -124,4 +152,8 @@ pub const ALL: &[&Code] = &[
     &CURVE_AS_LINES,
     &MORE,
     &NO_TOOL_NUMBER,
+    &NO_RECORDS,
+    &UNIT_ASSUMED,
+    &NO_MOTION,
+    &CUT_OFF,
 ];

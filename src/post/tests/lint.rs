@@ -80,6 +80,10 @@ fn codes_with_two_meanings_are_errors() {
     assert_eq!(only("[spindle]\ncounter-clockwise = \"M3\""), "E0754 both senses of the spindle are `M3`");
     assert_eq!(only("[coolant]\nflood = \"M5\""), "E0754 `spindle.off` and `coolant.flood` are both `M5`");
     assert_eq!(
+        only("[codes]\nplane-zx = \"G17\""),
+        "E0754 `codes.plane-xy` and `codes.plane-zx` are both `G17`"
+    );
+    assert_eq!(
         only("[groups.units]\ncodes = [\"G17\", \"G20\", \"G21\"]"),
         "E0754 `G17` is in two modal groups, `plane` and `units`"
     );
