@@ -234,7 +234,7 @@ pub mod bent;
 mod section;
 mod way;
 
-pub use way::extremes;
+pub use way::{extremes, stays};
 
 #[cfg(test)]
 mod tests;

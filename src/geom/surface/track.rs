@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use super::cutter::Cutter;
 use super::drop::{Contact, TOUCHES, drop_ball};
+use super::net::Net;
 use super::rim::Rim;
 use super::tree::{Foot, SurfaceTree};
 use crate::geom::{Point2, Point3};
@@ -45,6 +46,23 @@ pub enum Guide {
     Curve(Arc<Vec<[f64; 2]>>),
 }
 
+impl Guide {
+    /// The place of the cutter's axis in plan at `t` in 0..=1, where a bent guide tells it without the surface.
+    #[must_use]
+    pub fn plan(&self, net: &Net, t: f64) -> Option<Point2> {
+        match self {
+            Guide::Over { axis, value, range, rim } => Some(over(net, (*axis, *value, *range, rim), t)),
+            _ => None,
+        }
+    }
+}
+
+/// The place over a parameter line and the rim.
+fn over(net: &Net, (axis, value, range, rim): (usize, f64, (f64, f64), &Rim), t: f64) -> Point2 {
+    let along = range.0 + (range.1 - range.0) * t;
+    rim.place(net, if axis == 0 { [along, value] } else { [value, along] })
+}
+
 /// The curve of a cutter's reference point over a surface.
 #[derive(Debug, Clone)]
 pub struct Track {
@@ -74,9 +92,7 @@ impl Track {
                 self.cutter.drop(&self.tree, p.x, p.y, hint)
             }
             Guide::Over { axis, value, range, rim } => {
-                let along = range.0 + (range.1 - range.0) * t;
-                let uv = if *axis == 0 { [along, *value] } else { [*value, along] };
-                let p = rim.place(self.tree.net(), uv);
+                let p = over(self.tree.net(), (*axis, *value, *range, rim), t);
                 self.cutter.drop(&self.tree, p.x, p.y, hint)
             }
             Guide::Curve(places) => self.over(cubic(places, t)),

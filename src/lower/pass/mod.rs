@@ -21,10 +21,10 @@ use crate::cl::{Cl, Pass, RecordKind};
 use crate::diag::Sink;
 use crate::diag::codes::lowering as codes;
 use crate::geom::surface::cutter::bent::{self, Way};
-use crate::geom::surface::cutter::extremes;
+use crate::geom::surface::cutter::stays;
 use crate::geom::surface::swept::Question;
 use crate::geom::surface::{Contact, Guide, Track};
-use crate::geom::{Point2, Point3};
+use crate::geom::{Point2, Point3, Vec3};
 use crate::ir::at_origin;
 use crate::target::{Capabilities, Plane};
 use chart::Chart;
@@ -48,6 +48,9 @@ const MARGINS: [f64; 6] = [0.02, 0.15, 0.3, 0.5, 0.9, 1.5];
 const SLACK: f64 = 4e-7;
 /// Vertices on the grid may be so far to the side of a track, in steps.
 const GRID: f64 = 2.0;
+/// Where a cutter touches in leaps, links about the leaps are cut in any case: another margin is tried if more than one link
+/// in so many was.
+const FEW: usize = 12;
 /// Cuts of one failing link at most.
 const DEEPEST: u32 = 12;
 
@@ -238,10 +241,11 @@ impl<'a> Task<'a> {
             let vertices = self.vertices(chart, margin, head, tail);
             match self.repaired(chart, &vertices) {
                 Ok((chain, cuts)) => {
+                    let bearable = if self.is_round() { 0 } else { chain.len() / FEW };
                     if best.as_ref().is_none_or(|b| chain.len() < b.len()) {
                         best = Some(chain);
                     }
-                    if cuts == 0 {
+                    if cuts <= bearable {
                         break;
                     }
                 }
@@ -250,6 +254,10 @@ impl<'a> Task<'a> {
         }
         let line = |v: &Vertex| Step { to: v.steps, arc: None };
         best.map(|chain| chain.iter().map(line).collect()).ok_or(trouble)
+    }
+
+    fn is_round(&self) -> bool {
+        self.track.cutter.is_ball()
     }
 
     /// The vertices of a path with the fewest links in the ribbon that `margin` leaves.
@@ -294,8 +302,8 @@ impl<'a> Task<'a> {
         self.lattice.vertex(contact, off.clamp(self.low, self.high), (self.low, self.high))
     }
 
-    /// The chain with failing links cut in two until they hold; with the number of cuts.
-    fn repaired(&self, chart: &Chart, vertices: &[Vertex]) -> Result<(Vec<Vertex>, u32), Trouble> {
+    /// The chain with failing links cut in two until they hold; with the number of cuts that a narrower ribbon might save.
+    fn repaired(&self, chart: &Chart, vertices: &[Vertex]) -> Result<(Vec<Vertex>, usize), Trouble> {
         let mut out: Vec<Vertex> =
             vec![*vertices.first().ok_or(Trouble { at: Point3::origin(), lost: true })?];
         let mut cuts = 0;
@@ -306,8 +314,9 @@ impl<'a> Task<'a> {
         let mut rest_t = places;
         while let (Some(&(to, depth)), Some(&to_t)) = (rest.last(), rest_t.last()) {
             let from = out[out.len() - 1];
-            if from.steps == to.steps || self.aside(&from, &to, (from_t, to_t)) && self.holds(&from, to.steps)
-            {
+            let same = from.steps == to.steps;
+            let beside = same || self.aside(chart, &from, &to, (from_t, to_t));
+            if same || beside && self.holds(&from, to.steps) {
                 out.push(to);
                 rest.pop();
                 rest_t.pop();
@@ -319,7 +328,7 @@ impl<'a> Task<'a> {
             let Some(middle) = middle.filter(|_| depth < DEEPEST) else {
                 return Err(Trouble { at: from.centre, lost: false });
             };
-            cuts += 1;
+            cuts += usize::from(beside || self.is_round());
             if let Some(last) = rest.last_mut() {
                 last.1 = depth + 1;
             }
@@ -331,21 +340,27 @@ impl<'a> Task<'a> {
     }
 
     /// Whether the straight way between two vertices stays beside the track no farther than there is room.
-    fn aside(&self, from: &Vertex, to: &Vertex, (a, b): (f64, f64)) -> bool {
+    fn aside(&self, chart: &Chart, from: &Vertex, to: &Vertex, (a, b): (f64, f64)) -> bool {
         const PLACES: u32 = 6;
         if self.room.is_empty() {
             return true;
         }
         let (p, q) = (self.lattice.centre(from.steps), self.lattice.centre(to.steps));
         let Some(along) = (q - p).try_normalize(0.0) else { return true };
+        let beside = |t: f64, centre: Point3, normal: Vec3| {
+            let side = along.cross(&normal);
+            (centre - p).dot(&side).abs() <= self.room_at(t)
+        };
         let mut hint = None;
         (1..PLACES).all(|k| {
             let t = a + (b - a) * f64::from(k) / f64::from(PLACES);
+            let about = self.track.guide.plan(self.track.tree.net(), t).map(|plan| chart.over(t, plan));
+            // Between stations heights are not exact: what seems too far to the side is looked at.
+            if about.is_some_and(|(centre, normal)| beside(t, centre, normal)) {
+                return true;
+            }
             hint = self.track.at(t, hint.as_ref());
-            let Some(contact) = &hint else { return false };
-            let off = contact.centre - p;
-            let side = along.cross(&contact.normal);
-            off.dot(&side).abs() <= self.room_at(t)
+            hint.as_ref().is_some_and(|contact| beside(t, contact.centre, contact.normal))
         })
     }
 
@@ -366,9 +381,8 @@ impl<'a> Task<'a> {
     /// Whether the straight way from a vertex to a place on the grid stays in the band.
     fn holds(&self, from: &Vertex, to: [i64; 3]) -> bool {
         let (question, track) = (self.question(), &self.track);
-        let (a, b) = (self.lattice.centre(from.steps), self.lattice.centre(to));
-        let found = extremes(&track.tree, &track.cutter, a, b, &question, Some(&from.foot));
-        found.least.distance >= question.enough - SLACK && found.most.distance <= question.little + SLACK
+        let way = (self.lattice.centre(from.steps), self.lattice.centre(to));
+        stays(&track.tree, &track.cutter, way, &question, &from.foot)
     }
 
     /// Whether an arc from a vertex stays in the band.

@@ -136,6 +136,56 @@ fn extremes_of_a_way_are_those_of_samples() {
     }
 }
 
+/// A saddle whose last row stands up.
+fn saddle() -> SurfaceTree {
+    let z =
+        [[7.0, 0.0, 1.0, 8.0], [0.0, -5.0, -4.0, 0.0], [-1.0, -6.0, -5.0, 1.0], [16.0, 12.0, 14.0, 18.0]];
+    graph([0.0, 14.0, 28.0, 36.0], [0.0, 13.0, 26.0, 39.0], z)
+}
+
+/// Links that end with a sharp rim's side at the surface, or with a point of it inside the core: where the point goes on through
+/// the rim nothing is known of the distance but that it is not inside.
+#[test]
+fn chords_of_a_sharp_rim_are_told_to_leave_the_surface() {
+    let (tree, cutter) = (saddle(), Cutter::bull(3.0, 0.0).grown(0.005));
+    let links = [
+        ([10.5235, 2.5261, 3.4548], [8.7742, 2.5261, 3.996]),
+        ([14.9269, 23.9025, -0.4347], [13.7993, 23.9025, -0.3379]),
+        ([22.1402, 3.3194, 3.1875], [23.1421, 3.3194, 3.6639]),
+        ([18.0959, 3.6635, 2.0296], [19.1265, 3.6635, 2.1629]),
+    ];
+    for (from, to) in links {
+        let (from, to) = (Point3::from(from), Point3::from(to));
+        let near = |x: Point3| tree.near(&cutter, (x, x), f64::INFINITY, 1e-9, None);
+        let exact = (0..=60).map(|k| near(from + (to - from) * (f64::from(k) / 60.0)).distance);
+        let most = exact.fold(f64::NEG_INFINITY, f64::max);
+        let question = Question { enough: 0.0, little: 0.01, accuracy: 4e-7 };
+        assert!(most > 0.01001 && near(from).distance < 0.01);
+        assert!(!stays(&tree, &cutter, (from, to), &question, &near(from)));
+        let found = extremes(&tree, &cutter, from, to, &question, None).most.distance;
+        assert!((-1e-7..1e-4).contains(&(found - most)), "{from} {to}: {most} {found}");
+        let wide = Question { little: most + 1e-4, enough: -1.0, ..question };
+        assert!(stays(&tree, &cutter, (from, to), &wide, &near(from)));
+        let high = Question { enough: 0.005, ..wide };
+        assert!(!stays(&tree, &cutter, (from, to), &high, &near(from)));
+    }
+}
+
+/// At an edge a search may end a hair inside of it: the normal is the cutter's there as well.
+#[test]
+fn the_normal_at_a_corner_of_a_net_is_that_of_the_cutter() {
+    let (tree, cutter) = (saddle(), Cutter::bull(5.0, 2.0).grown(0.005));
+    let mut hint = cutter.drop(&tree, 3.3, 36.3, None);
+    for k in 0..200u32 {
+        let x = 3.3 - f64::from(k) * 1e-3;
+        let rest = cutter.drop(&tree, x, 36.573, hint.as_ref()).expect("a contact");
+        let (_, out) = cutter.outside_core(rest.foot.point - rest.centre);
+        assert!((out + rest.normal).norm() < 1e-3, "{x}: {out} {rest:?}");
+        let foot = crate::geom::surface::Foot { uv: [1e-8, 1.0 - 1e-9], ..rest.foot };
+        hint = Some(Contact { foot, ..rest });
+    }
+}
+
 #[test]
 fn what_rests_touches_and_what_is_lower_enters() {
     let tree = hills();

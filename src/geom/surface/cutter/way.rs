@@ -38,13 +38,30 @@ pub fn extremes(
     if question.little.is_infinite() || enters && distance <= 0.0 {
         return Extremes { least, most: least, foot };
     }
-    let hunt = Hunt { tree, cutter, from, to, question, everywhere: false };
-    let (most, last) = hunt.most(&foot);
-    if most.distance > question.little && !hunt.is_nearest(&most) {
-        let (most, foot) = Hunt { everywhere: true, ..hunt }.most(&last);
-        return Extremes { least, most, foot };
+    let hunt = Hunt { tree, cutter, from, to, question, exact: true };
+    let (most, foot) = hunt.most(&foot);
+    Extremes { least, most, foot }
+}
+
+/// Whether the distance stays in the band that a question asks about, but for its accuracy: as [`extremes`] tells it, without
+/// looking for values.
+#[must_use]
+pub fn stays(
+    tree: &SurfaceTree,
+    cutter: &Cutter,
+    (from, to): (Point3, Point3),
+    question: &Question,
+    hint: &Foot,
+) -> bool {
+    let Question { enough, little, accuracy } = *question;
+    if cutter.is_ball() {
+        let found = swept::extremes(tree, from, to, question, Some(hint));
+        return found.least.distance >= enough - accuracy && found.most.distance <= little + accuracy;
     }
-    Extremes { least, most, foot: last }
+    let hunt = Hunt { tree, cutter, from, to, question, exact: false };
+    // What leaves the surface is told the sooner.
+    hunt.most(hint).0.distance <= little + accuracy
+        && !tree.comes_nearer(cutter, (from, to), (enough, enough - accuracy), Some(hint))
 }
 
 /// Where on the way the core comes nearest to a point.
@@ -61,8 +78,8 @@ struct Hunt<'a> {
     from: Point3,
     to: Point3,
     question: &'a Question,
-    /// Whether the nearest point of the whole surface is looked for: without, one near the place before.
-    everywhere: bool,
+    /// Whether the largest distance is wanted, where it is more than what is little: else any such distance ends the hunt.
+    exact: bool,
 }
 
 #[derive(Clone, Copy)]
@@ -80,23 +97,24 @@ struct Parabola {
 }
 
 impl Hunt<'_> {
-    /// A place of the way. Any point of the surface bounds the distance from above, if not always closely.
-    fn look(&self, s: f64, along: Vec3, hint: &Foot) -> Sample {
+    /// A place of the way. Any point of the surface bounds the distance from above: one near a hint will do, if it is no
+    /// farther away than `enough`.
+    fn look(&self, s: f64, along: Vec3, hints: &[&Foot], enough: f64) -> Sample {
         let x = self.from + along * s;
-        let foot = if self.everywhere {
-            self.tree.near(self.cutter, (x, x), f64::INFINITY, SAMPLED, Some(hint))
-        } else {
-            self.tree.beside(self.cutter, x, hint)
+        let sample = |foot: Foot| {
+            let (d, normal) = self.cutter.outside_core(foot.point - x);
+            Sample { s, d, normal, foot }
         };
-        let (d, normal) = self.cutter.outside_core(foot.point - x);
-        Sample { s, d, normal, foot }
-    }
-
-    /// Whether no other point of the surface is nearer at a place than was found.
-    fn is_nearest(&self, found: &Extreme) -> bool {
-        let way = (found.at, found.at);
-        let foot = self.tree.near(self.cutter, way, found.distance, SAMPLED, None);
-        foot.distance >= found.distance - self.question.accuracy
+        let mut best: Option<Sample> = None;
+        for hint in hints {
+            let own = sample(self.tree.beside(self.cutter, x, hint));
+            if own.d <= enough {
+                return own;
+            }
+            best = best.filter(|b| b.d <= own.d).or(Some(own));
+        }
+        let hint = best.as_ref().map(|b| &b.foot);
+        sample(self.tree.near(self.cutter, (x, x), f64::INFINITY, SAMPLED, hint))
     }
 
     /// The largest distance along the way, and the foot of its end.
@@ -104,13 +122,17 @@ impl Hunt<'_> {
         let way = self.to - self.from;
         let length = way.norm();
         let along = if length > 0.0 { way / length } else { Vec3::zeros() };
-        let first = self.look(0.0, along, hint);
-        let last = self.look(length, along, &first.foot);
+        let little = self.question.little;
+        let first = self.look(0.0, along, &[hint], little);
+        let last = self.look(length, along, &[&first.foot], little);
         let mut best = if last.d > first.d { (last.d, last.s) } else { (first.d, first.s) };
         let mut stack = vec![(first, last)];
         let mut left = BUDGET;
         while let Some((a, b)) = stack.pop() {
-            let wanted = (best.0 + self.question.accuracy).max(self.question.little);
+            if !self.exact && best.0 > little + self.question.accuracy {
+                break;
+            }
+            let wanted = (best.0 + self.question.accuracy).max(little);
             let (high, at) = self.above(&a, &b, along);
             if high <= wanted || b.s - a.s <= 1e-9 {
                 continue;
@@ -121,7 +143,8 @@ impl Hunt<'_> {
             }
             left -= 1;
             let h = b.s - a.s;
-            let middle = self.look(at.clamp(a.s + 0.1 * h, b.s - 0.1 * h), along, &a.foot);
+            let place = at.clamp(a.s + 0.1 * h, b.s - 0.1 * h);
+            let middle = self.look(place, along, &[&a.foot, &b.foot], best.0.max(little));
             if middle.d > best.0 {
                 best = (middle.d, middle.s);
             }
@@ -147,18 +170,31 @@ impl Hunt<'_> {
         if still < high { (still, a.s + 0.5 * h) } else { (high, a.s + t) }
     }
 
-    /// The surface's point slides with the cutter as far as its patch goes. Along the normal the distance changes as the
-    /// point does; a way `w` at right angles to it makes a distance d no more than √(d² + w²).
+    /// The surface's point slides with the cutter as far as its patch goes: with the way as the core's normal sees it, or with
+    /// all of it. A sharp rim's normal is not the surface's: then the second follows better.
     fn parabola(&self, sample: &Sample, along: Vec3, h: f64) -> Parabola {
+        let level = along - sample.normal * sample.normal.dot(&along);
+        let [a, b] = [level, along].map(|velocity| self.sliding(sample, (along, velocity), h));
+        let end = |p: &Parabola| p.slope + 0.5 * p.curve * h;
+        if end(&a) <= end(&b) { a } else { b }
+    }
+
+    /// The surface's point slides with this velocity. Seen from the core it then moves by what that leaves of the way: along the
+    /// normal the distance changes as the point does, and a way `w` at right angles makes a distance d no more than
+    /// √(d² + w²), and no more than d + w. Past the boundary the core may be thin: there no more is known than that the point is
+    /// inside. Distances from a convex core are convex along a straight line, so that their chord bounds them.
+    fn sliding(&self, sample: &Sample, (along, velocity): (Vec3, Vec3), h: f64) -> Parabola {
         let n = sample.normal;
-        let level = along - n * n.dot(&along);
-        let slide = self.tree.slide(&sample.foot, level, h);
-        let falls = n.dot(&slide.left);
-        let (slope, left) = (-n.dot(&along) - falls, (slide.left - n * falls).norm());
+        let slide = self.tree.slide(&sample.foot, velocity, h);
+        let rest = along - velocity + slide.left;
+        let slope = -n.dot(&rest);
+        let aside = (rest + n * slope).norm();
         let room = sample.d - h * slope.abs();
-        let behind = Parabola { slope: slope + left, curve: slide.curve };
-        let round = if room > 0.0 { left * left / room } else { f64::INFINITY };
-        if round * h * 0.5 < left { Parabola { slope, curve: slide.curve + round } } else { behind }
+        let round = if room > 0.0 { aside * aside / room } else { f64::INFINITY };
+        if round * h * 0.5 < aside {
+            return Parabola { slope, curve: slide.curve + round };
+        }
+        Parabola { slope: slope.max(-sample.d / h) + aside, curve: slide.curve }
     }
 }
 

@@ -141,7 +141,7 @@ impl Aim for Sweep<'_> {
     }
     fn sizes(&self) -> [f64; 4] {
         let radius = self.cutter.corner() + self.cutter.flat();
-        [4.0 * radius, radius, 0.0, 0.0]
+        [4.0 * radius, radius, 0.25 * radius, 0.06 * radius]
     }
     /// Newton's step for the distance over the patch.
     fn step(&self, jet: &SurfaceJet) -> Option<[f64; 2]> {
@@ -233,6 +233,25 @@ impl SurfaceTree {
             Some(s) => Foot { patch: s.patch, uv: s.uv, point: s.point, distance: -search.best, certain },
             None => Foot { patch: 0, uv: [0.0, 0.0], point: way.0, distance: certain, certain },
         }
+    }
+
+    /// Whether the core of a cutter on the way of its reference point comes nearer to the surface than `distance`, which is
+    /// a little less than `within`; yes as well where it cannot be told that it stays farther away than `within`.
+    #[must_use]
+    pub fn comes_nearer(
+        &self,
+        cutter: &Cutter,
+        way: (Point3, Point3),
+        (within, distance): (f64, f64),
+        hint: Option<&Foot>,
+    ) -> bool {
+        let aim = Sweep::new(cutter, way);
+        let mut search = Search::new(self, &aim, within - distance).above(-within).until(-distance);
+        if let Some(foot) = hint {
+            search.start(foot.patch, foot.uv);
+        }
+        search.run();
+        search.best > -distance || search.gave_up()
     }
 
     /// The point near `hint` that the core of a cutter with its reference point at `x` comes nearest to, or one on the way

@@ -12,6 +12,8 @@ use crate::geom::{Point3, Vec3};
 const ACCURACY: f64 = 1e-7;
 /// Of a sharp cutter, the share of its flat's radius within which its rim is taken for round.
 const SHARP: f64 = 0.05;
+/// Contacts nearer to an edge, in parameters, are at the edge as far as the search can tell: there the normal is the cutter's.
+const EDGE: f64 = 1e-6;
 /// Planes steeper than this (n·z) hold no cutter.
 const UPRIGHT: f64 = 1e-4;
 
@@ -216,7 +218,7 @@ impl SurfaceTree {
         let height =
             if search.bound() > search.best + 1.01 * ACCURACY { search.bound() } else { search.best };
         let jet = self.net.patches()[spot.patch].jet(spot.uv[0], spot.uv[1]);
-        let inside = spot.uv.iter().all(|t| *t > 0.0 && *t < 1.0);
+        let inside = spot.uv.iter().all(|t| *t > EDGE && *t < 1.0 - EDGE);
         let facing = || aim.facing(spot.point);
         let normal = if inside { jet.normal().or_else(facing) } else { facing().or_else(|| jet.normal()) }?;
         let distance = cutter.corner();

@@ -72,6 +72,8 @@ pub(super) struct Search<'a, A> {
     surveyed: bool,
     /// Scores of at most this are of no interest.
     floor: f64,
+    /// Once a better score is found nothing more is asked.
+    until: f64,
     accuracy: f64,
     /// Largest bound of what was given up.
     open: f64,
@@ -131,6 +133,7 @@ impl<'a, A: Aim> Search<'a, A> {
             summit: None,
             surveyed: false,
             floor: NOTHING,
+            until: f64::INFINITY,
             accuracy,
             open: f64::NEG_INFINITY,
             budget: tree.budget(MOST_PIECES),
@@ -141,9 +144,19 @@ impl<'a, A: Aim> Search<'a, A> {
         Search { floor: floor.max(NOTHING), ..self }
     }
 
+    /// The search may end at any score above this.
+    pub(super) fn until(self, until: f64) -> Search<'a, A> {
+        Search { until, ..self }
+    }
+
     /// No point of the surface scores more than this (the floor, where all score less).
     pub(super) fn bound(&self) -> f64 {
         self.best.max(self.floor).max(self.open) + if self.best > self.floor { self.accuracy } else { 0.0 }
+    }
+
+    /// Whether something was given up that may be of interest.
+    pub(super) fn gave_up(&self) -> bool {
+        self.open > self.floor
     }
 
     fn limit(&self) -> f64 {
@@ -158,7 +171,7 @@ impl<'a, A: Aim> Search<'a, A> {
     pub(super) fn run(&mut self) {
         let mut open = BinaryHeap::from([Open { bound: f64::INFINITY, part: Part::Node(0) }]);
         while let Some(Open { bound, part }) = open.pop() {
-            if bound <= self.limit() {
+            if bound <= self.limit() || self.best > self.until {
                 return;
             }
             match part {
