@@ -83,7 +83,7 @@ impl Planner<'_> {
         let (blank, top) = blank(&self.program.stocks[rough.stock].shape);
         let upright = self.upright((rough.net, &tree), origin);
         let clear = self.clears((rough.clearance, rough.leave, Some(top)), &tree, origin);
-        let wide = self.wide(rough, radius, origin);
+        let wide = self.wide(rough, &cutter, origin);
         let (true, true, true, Some(ready)) = (upright, clear, wide, ready) else { return };
         let wall_left = part_side(rough.cut, ready.clockwise) == Side::Left;
         let Some(job) = job(rough, (Arc::clone(&tree), cutter), (blank, top), wall_left) else {
@@ -102,21 +102,26 @@ impl Planner<'_> {
         self.tell_teeth((&name, rough), (&cutter, &plan.tally), origin);
     }
 
-    /// Rings must overlap.
-    fn wide(&mut self, rough: &RoughNet, radius: f64, origin: Handle<Origin>) -> bool {
-        if rough.width <= 2.0 * radius {
+    /// Rings must overlap at the top of a level.
+    fn wide(&mut self, rough: &RoughNet, solid: &Cutter, origin: Handle<Origin>) -> bool {
+        let most = 2.0 * solid.half_width(rough.step);
+        if rough.width <= most {
             return true;
         }
         let cutter = &self.program.tools[rough.tool];
         let message = format!(
-            "passes {} apart leave walls between them: cutter {} is {} wide",
+            "passes {} apart leave walls between them: cutter {} is {} wide at a depth of {}",
             self.show(rough.width),
             cutter.name,
-            self.show(2.0 * radius)
+            self.show((most * 1000.0).floor() / 1000.0),
+            self.show(rough.step)
         );
         let diagnostic = Diagnostic::new(&codes::ROUGH_TOO_WIDE, self.span(origin), message)
             .label(self.span(cutter.origin), "the cutter")
-            .help(format!("write a WIDTH of at most {}; half of it is usual", self.show(radius)));
+            .help(format!(
+                "write a WIDTH of at most {}; half of the cutter's width is usual",
+                self.show((most * 1000.0).floor() / 1000.0)
+            ));
         self.report(diagnostic, origin);
         false
     }
@@ -227,9 +232,15 @@ impl Planner<'_> {
             effort.levels,
             if effort.levels == 1 { "" } else { "s" }
         );
+        let feed = effort.time.map(|t| t / (effort.engaged + effort.links).max(1e-9));
+        let least = feed.map_or(String::new(), |per| format!(", {:.0} s at the feed", per * effort.bound));
         let areas: Vec<String> = plan.levels.iter().map(|(_, area)| format!("{:.1}", tenth(*area))).collect();
         let diagnostic = Diagnostic::new(&codes::ROUGHING_FIGURES, self.span(origin), message)
-            .note(format!("area over the step is {}", self.show(tenth(effort.bound))))
+            .note(format!(
+                "cleared area {:.1} mm²; over the step that is {}{least}",
+                plan.levels.iter().map(|l| tenth(l.1)).sum::<f64>(),
+                self.show(tenth(effort.bound))
+            ))
             .note(format!("areas of the levels, mm²: {}", areas.join(", ")));
         self.report(diagnostic, origin);
     }
