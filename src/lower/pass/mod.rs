@@ -51,6 +51,8 @@ const GRID: f64 = 2.0;
 /// Where a cutter touches in leaps, links about the leaps are cut in any case: another margin is tried if more than one link
 /// in so many was.
 const FEW: usize = 12;
+/// Distances off the track at which vertices are tried where the gates of a ribbon cross, as shares of the band.
+const OFFS: [f64; 3] = [0.5, 0.1, 0.9];
 /// Cuts of one failing link at most.
 const DEEPEST: u32 = 12;
 
@@ -278,15 +280,62 @@ impl<'a> Task<'a> {
                         out.extend(self.knot(chart, piece.0, knot.at, knot.next));
                     }
                 }
-                // Gates that cross: every station becomes a vertex, and repair has nothing to do.
-                None => out.extend(
-                    (piece.0 + 1..piece.1).filter_map(|i| self.vertex(&chart.contact(i), 0.5 * (low + high))),
-                ),
+                None => self.stations(chart, piece, (low, high), &mut out),
             }
             out.extend(end);
         }
         out.dedup_by(|b, a| a.steps == b.steps);
         out
+    }
+
+    /// Where the gates of the ribbon cross: vertices at stations, each as far on as a straight way holds, at one of a
+    /// few distances off the track.
+    fn stations(
+        &self,
+        chart: &Chart,
+        (first, last): (usize, usize),
+        (low, high): (f64, f64),
+        out: &mut Vec<Vertex>,
+    ) {
+        let mut from = first;
+        while from + 1 < last {
+            let Some(start) = out.last().copied() else { return };
+            let reached =
+                OFFS.map(|share| self.farthest(chart, &start, (from, last), low + share * (high - low)));
+            let Some((station, vertex)) = reached.into_iter().flatten().max_by_key(|(station, _)| *station)
+            else {
+                return;
+            };
+            out.push(vertex);
+            from = station;
+        }
+    }
+
+    /// The farthest station before `last` that a straight way reaches so far off the track, or the next one.
+    fn farthest(
+        &self,
+        chart: &Chart,
+        start: &Vertex,
+        (from, last): (usize, usize),
+        off: f64,
+    ) -> Option<(usize, Vertex)> {
+        let at = |i: usize| self.vertex(&chart.contact(i), off);
+        let holds = |i: usize| at(i).is_some_and(|v| self.holds(start, v.steps));
+        let (mut near, mut step) = (from + 1, 1);
+        while near + step < last && holds(near + step) {
+            near += step;
+            step *= 2;
+        }
+        let mut far = (near + step).min(last);
+        while far - near > 1 {
+            let middle = near + (far - near) / 2;
+            if holds(middle) {
+                near = middle;
+            } else {
+                far = middle;
+            }
+        }
+        at(near).map(|vertex| (near, vertex))
     }
 
     /// A knot of the chart in space, on the grid.
