@@ -347,8 +347,39 @@ impl<'a> Task<'a> {
         Some(vertex)
     }
 
+    /// The vertex near a contact that is about so far off the track.
+    ///
+    /// In a plane a vertex moves aslant to the normal, and its distance from the surface is not quite what the normal tells:
+    /// it is set right where that leaves the band.
     fn vertex(&self, contact: &Contact, off: f64) -> Option<Vertex> {
-        self.lattice.vertex(contact, off.clamp(self.low, self.high), (self.low, self.high))
+        const TRIES: u32 = 4;
+        let range = (self.low, self.high);
+        let mut vertex = self.lattice.vertex(contact, off.clamp(self.low, self.high), range)?;
+        if self.lattice.kept().is_none() {
+            return Some(vertex);
+        }
+        for _ in 0..TRIES {
+            let off = self.off(&vertex);
+            let beyond = off - off.clamp(self.low, self.high);
+            if beyond.abs() <= SLACK {
+                break;
+            }
+            let nearer = vertex.off - beyond - 0.5 * self.lattice.step * beyond.signum();
+            vertex = self.lattice.vertex(contact, nearer.clamp(self.low, self.high), range)?;
+        }
+        Some(vertex)
+    }
+
+    /// How far the cutter is off the track's distance from the surface at a vertex, mm.
+    fn off(&self, vertex: &Vertex) -> f64 {
+        let (tree, place) = (&self.track.tree, vertex.centre);
+        let far = self.ball + 2.0 * self.high;
+        let foot = if self.track.cutter.is_ball() {
+            tree.nearest(place, Some(&vertex.foot))
+        } else {
+            tree.near(&self.track.cutter, (place, place), far, SLACK, Some(&vertex.foot))
+        };
+        foot.distance - self.ball
     }
 
     /// The chain with failing links cut in two until they hold; with the number of cuts that a narrower ribbon might save.
