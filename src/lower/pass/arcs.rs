@@ -214,7 +214,10 @@ impl<'a> Fitter<'a> {
 
     fn vertex(&self, station: usize, off: f64) -> Option<Vertex> {
         let range = (self.task.low, self.task.high);
-        self.task.lattice.vertex(&self.chart.contact(station), off, range)
+        {
+            let contact = self.chart.contact(station);
+            self.task.lattice.vertex(&contact, off, range, self.task.lattice.sideways(contact.normal))
+        }
     }
 
     fn curvatures(&self, (i, p): (usize, &Vertex), (j, q): (usize, &Vertex)) -> Option<Curvatures> {

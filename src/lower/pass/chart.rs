@@ -5,7 +5,7 @@
 //! in the length of a link.
 
 use crate::geom::surface::{Contact, Track};
-use crate::geom::{Point2, Point3, Vec2, Vec3};
+use crate::geom::{Point2, Vec2};
 use crate::math;
 
 use super::super::fit::ribbon::Ribbon;
@@ -89,14 +89,9 @@ impl Chart {
     pub(super) fn contact(&self, i: usize) -> Contact {
         self.stations[i].contact
     }
-    /// The track and its normal over a place of its plan, at a parameter: heights are those between the stations about it.
-    pub(super) fn over(&self, t: f64, plan: Point2) -> (Point3, Vec3) {
-        let next = self.stations.partition_point(|s| s.t < t).clamp(1, self.stations.len() - 1);
-        let (a, b) = (&self.stations[next - 1], &self.stations[next]);
-        let share = if b.t > a.t { ((t - a.t) / (b.t - a.t)).clamp(0.0, 1.0) } else { 0.0 };
-        let between = |x: f64, y: f64| x + (y - x) * share;
-        let normal = a.contact.normal + (b.contact.normal - a.contact.normal) * share;
-        (Point3::new(plan.x, plan.y, between(a.contact.centre.z, b.contact.centre.z)), normal)
+    /// Parameter of the track at a station.
+    pub(super) fn t(&self, i: usize) -> f64 {
+        self.stations[i].t
     }
     /// Smooth stretches, as their first and last stations.
     pub(super) fn pieces(&self) -> Vec<(usize, usize)> {

@@ -24,7 +24,7 @@ use crate::geom::surface::cutter::bent::{self, Way};
 use crate::geom::surface::cutter::stays;
 use crate::geom::surface::swept::Question;
 use crate::geom::surface::{Contact, Guide, Track};
-use crate::geom::{Point2, Point3, Vec3};
+use crate::geom::{Point2, Point3, Vec3, cross};
 use crate::ir::at_origin;
 use crate::target::{Capabilities, Plane};
 use chart::Chart;
@@ -222,7 +222,10 @@ impl<'a> Task<'a> {
         let (Some(first), Some(last)) = (track.at(0.0, None), track.at(1.0, None)) else {
             return Err(lost(&track));
         };
-        let ends = [first, last].map(|c| lattice.vertex(&c, 0.5 * (low + high), (low, high)));
+        let ends = [(first, 0.0), (last, 1.0)].map(|(c, t)| {
+            let aslant = direction(&track, &lattice, c.normal, t);
+            lattice.vertex(&c, 0.5 * (low + high), (low, high), aslant)
+        });
         let [Some(head), Some(tail)] = ends else { return Err(Trouble { at: first.centre, lost: false }) };
         let (contacts, ends) = ([first, last], [head, tail]);
         let (ball, room) = (pass.track.radius, pass.room.as_slice());
@@ -269,7 +272,8 @@ impl<'a> Task<'a> {
             let (low, high) = (self.low + margin, self.high - margin);
             let (start, end) =
                 (out.last().copied().unwrap_or(head), (piece.1 == chart.len() - 1).then_some(tail));
-            let end = end.or_else(|| self.vertex(&chart.contact(piece.1), 0.5 * (low + high)));
+            let end =
+                end.or_else(|| self.vertex(&chart.contact(piece.1), 0.5 * (low + high), chart.t(piece.1)));
             let from = chart.place(piece.0, start.off.clamp(low, high));
             let to = chart.place(piece.1, end.map_or(0.5 * (low + high), |v| v.off).clamp(low, high));
             let ribbon = chart.ribbon(piece, low, high);
@@ -319,7 +323,7 @@ impl<'a> Task<'a> {
         (from, last): (usize, usize),
         off: f64,
     ) -> Option<(usize, Vertex)> {
-        let at = |i: usize| self.vertex(&chart.contact(i), off);
+        let at = |i: usize| self.vertex(&chart.contact(i), off, chart.t(i));
         let holds = |i: usize| at(i).is_some_and(|v| self.holds(start, v.steps));
         let (mut near, mut step) = (from + 1, 1);
         while near + step < last && holds(near + step) {
@@ -342,20 +346,21 @@ impl<'a> Task<'a> {
     fn knot(&self, chart: &Chart, first: usize, at: Point2, next: usize) -> Option<Vertex> {
         let (t, off, hint) = chart.locate(first + next, at);
         let contact = self.track.at(t, Some(&hint))?;
-        let mut vertex = self.vertex(&contact, off)?;
+        let mut vertex = self.vertex(&contact, off, t)?;
         vertex.t = t;
         Some(vertex)
     }
 
-    /// The vertex near a contact that is about so far off the track.
+    /// The vertex near a contact, at a parameter of the track, that is about so far off it.
     ///
-    /// In a plane a vertex moves aslant to the normal, and its distance from the surface is not quite what the normal tells:
-    /// it is set right where that leaves the band.
-    fn vertex(&self, contact: &Contact, off: f64) -> Option<Vertex> {
+    /// Over a way in plan a vertex moves aslant to the normal, and its distance from the surface is not quite what the
+    /// normal tells: it is set right where that leaves the band.
+    fn vertex(&self, contact: &Contact, off: f64, t: f64) -> Option<Vertex> {
         const TRIES: u32 = 4;
         let range = (self.low, self.high);
-        let mut vertex = self.lattice.vertex(contact, off.clamp(self.low, self.high), range)?;
-        if self.lattice.kept().is_none() {
+        let aslant = direction(&self.track, &self.lattice, contact.normal, t);
+        let mut vertex = self.lattice.vertex(contact, off.clamp(self.low, self.high), range, aslant)?;
+        if aslant == contact.normal {
             return Some(vertex);
         }
         for _ in 0..TRIES {
@@ -365,7 +370,7 @@ impl<'a> Task<'a> {
                 break;
             }
             let nearer = vertex.off - beyond - 0.5 * self.lattice.step * beyond.signum();
-            vertex = self.lattice.vertex(contact, nearer.clamp(self.low, self.high), range)?;
+            vertex = self.lattice.vertex(contact, nearer.clamp(self.low, self.high), range, aslant)?;
         }
         Some(vertex)
     }
@@ -395,7 +400,7 @@ impl<'a> Task<'a> {
         while let (Some(&(to, depth)), Some(&to_t)) = (rest.last(), rest_t.last()) {
             let from = out[out.len() - 1];
             let same = from.steps == to.steps;
-            let beside = same || self.aside(chart, &from, &to, (from_t, to_t));
+            let beside = same || self.aside(&from, &to, (from_t, to_t));
             if same || beside && self.holds(&from, to.steps) {
                 out.push(to);
                 rest.pop();
@@ -404,7 +409,8 @@ impl<'a> Task<'a> {
                 continue;
             }
             let t = 0.5 * (from_t + to_t);
-            let middle = self.track.at(t, None).and_then(|c| self.vertex(&c, 0.5 * (self.low + self.high)));
+            let middle = self.track.at(t, None);
+            let middle = middle.and_then(|c| self.vertex(&c, 0.5 * (self.low + self.high), t));
             let Some(middle) = middle.filter(|_| depth < DEEPEST) else {
                 return Err(Trouble { at: from.centre, lost: false });
             };
@@ -420,27 +426,27 @@ impl<'a> Task<'a> {
     }
 
     /// Whether the straight way between two vertices stays beside the track no farther than there is room.
-    fn aside(&self, chart: &Chart, from: &Vertex, to: &Vertex, (a, b): (f64, f64)) -> bool {
+    ///
+    /// Where the axis runs over a curve in plan that is told there, else along the surface.
+    fn aside(&self, from: &Vertex, to: &Vertex, (a, b): (f64, f64)) -> bool {
         const PLACES: u32 = 6;
         if self.room.is_empty() {
             return true;
         }
         let (p, q) = (self.lattice.centre(from.steps), self.lattice.centre(to.steps));
         let Some(along) = (q - p).try_normalize(0.0) else { return true };
-        let beside = |t: f64, centre: Point3, normal: Vec3| {
-            let side = along.cross(&normal);
-            (centre - p).dot(&side).abs() <= self.room_at(t)
-        };
         let mut hint = None;
         (1..PLACES).all(|k| {
             let t = a + (b - a) * f64::from(k) / f64::from(PLACES);
-            let about = self.track.guide.plan(self.track.tree.net(), t).map(|plan| chart.over(t, plan));
-            // Between stations heights are not exact: what seems too far to the side is looked at.
-            if about.is_some_and(|(centre, normal)| beside(t, centre, normal)) {
-                return true;
-            }
-            hint = self.track.at(t, hint.as_ref());
-            hint.as_ref().is_some_and(|contact| beside(t, contact.centre, contact.normal))
+            let beside = if let Some(plan) = self.track.guide.plan(self.track.tree.net(), t) {
+                let way = along.xy().try_normalize(0.0).unwrap_or_default();
+                cross(way, plan - p.xy())
+            } else {
+                hint = self.track.at(t, hint.as_ref());
+                let Some(contact) = &hint else { return false };
+                (contact.centre - p).dot(&along.cross(&contact.normal))
+            };
+            beside.abs() <= self.room_at(t)
         })
     }
 
@@ -475,6 +481,19 @@ impl<'a> Task<'a> {
                 && found.most.distance <= question.little + 2.0 * SLACK
         })
     }
+}
+
+/// Where vertices lie off a track: along the normal, but in the vertical plane of a way in plan.
+fn direction(track: &Track, lattice: &Lattice, normal: Vec3, t: f64) -> Vec3 {
+    const NEAR: f64 = 1e-4;
+    let net = track.tree.net();
+    let (before, after) = ((t - NEAR).max(0.0), (t + NEAR).min(1.0));
+    let (Some(a), Some(b)) = (track.guide.plan(net, before), track.guide.plan(net, after)) else {
+        return lattice.sideways(normal);
+    };
+    let Some(way) = (b - a).try_normalize(1e-12) else { return normal };
+    let across = Vec3::new(-way.y, way.x, 0.0);
+    (normal - across * normal.dot(&across)).try_normalize(1e-9).unwrap_or(normal)
 }
 
 /// Whether a guide is a straight line along x (0) or y (1).

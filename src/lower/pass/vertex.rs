@@ -53,9 +53,9 @@ impl Lattice {
         Point3::new(x, y, z + self.tip)
     }
 
-    /// The vertex near `contact` whose distance along the normal comes nearest to `off` and lies in `range`.
-    pub(super) fn vertex(&self, contact: &Contact, off: f64, range: (f64, f64)) -> Option<Vertex> {
-        let n = self.sideways(contact.normal);
+    /// The vertex near `contact` in the direction `n` of it, whose distance along the normal comes nearest to `off` and lies
+    /// in `range`.
+    pub(super) fn vertex(&self, contact: &Contact, off: f64, range: (f64, f64), n: Vec3) -> Option<Vertex> {
         let ideal = contact.centre + n * (off / n.dot(&contact.normal).max(0.05));
         let tip = Point3::new(ideal.x, ideal.y, ideal.z - self.tip);
         let base = [tip.x, tip.y, tip.z].map(|c| (c / self.step).round());
