@@ -39,9 +39,10 @@ fn every_exit_status_has_its_reason() {
     let scratch = scratch("exit-all");
     scratch.write("other.nc", "%\nO1\nG21 G90 G94\nT1 M6\nG43 H1 G0 Z5.\nM30\n%\n");
     assert_eq!(code(&scratch.run(&["build", "points.apt", "--post", "fanuc", "-o", "a.nc"])), 0);
-    let cases: [(&[&str], i32, &str); 8] = [
+    let cases: [(&[&str], i32, &str); 9] = [
         (&["build", "broken.apt", "--post", "fanuc"], 1, "E0101"),
         (&["build", "points.apt", "--post", "nobody"], 2, "E0701"),
+        (&["build", "points.apt", "--post", "fanuc,grbl"], 2, "`--post fanuc --post heidenhain`"),
         (&["build", "points.apt", "--post", "fanuc", "--no-such-option"], 2, "--no-such-option"),
         (&["diff", "a.nc", "other.nc", "--post", "fanuc"], 3, ""),
         (&["test", "points.apt"], 2, "E0956"),

@@ -229,6 +229,9 @@ fn unknown(name: &str, at: Option<Span>) -> Diagnostic {
         Some(span) => Diagnostic::new(&codes::post::UNKNOWN_POST, span, message),
         None => Diagnostic::global(&codes::post::UNKNOWN_POST, message),
     };
+    if name.contains(',') {
+        return error.help("each post is asked for by itself: `--post fanuc --post heidenhain`");
+    }
     match did_you_mean(name, builtin_names()) {
         Some(near) => error.help(format!("did you mean `{near}`?")),
         None => {
