@@ -181,27 +181,10 @@ impl<'a> Fitter<'a> {
             let to = self.flat(self.off(&self.chart.contact(j), off));
             self.interval((from.station, self.flat(from.vertex.centre)), (j, to)).is_some()
         };
-        let (mut near, mut far) = (from.station + 1, last);
-        if near >= last {
+        if from.station + 1 >= last {
             return None;
         }
-        let mut step = (*stride).max(1);
-        while near + step < far {
-            if reaches(near + step) {
-                near += step;
-                step *= 2;
-            } else {
-                far = near + step;
-            }
-        }
-        while far - near > 1 {
-            let middle = near + (far - near) / 2;
-            if reaches(middle) {
-                near = middle;
-            } else {
-                far = middle;
-            }
-        }
+        let near = super::reached((from.station, last), *stride, reaches);
         *stride = (near - from.station) * 3 / 4;
         let back = ((near - from.station) / 50).max(1);
         (0..BACK).map_while(|k| near.checked_sub(k * back).filter(|j| *j > from.station)).find_map(|j| {

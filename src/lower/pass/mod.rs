@@ -325,20 +325,7 @@ impl<'a> Task<'a> {
     ) -> Option<(usize, Vertex)> {
         let at = |i: usize| self.vertex(&chart.contact(i), off, chart.t(i));
         let holds = |i: usize| at(i).is_some_and(|v| self.holds(start, v.steps));
-        let (mut near, mut step) = (from + 1, 1);
-        while near + step < last && holds(near + step) {
-            near += step;
-            step *= 2;
-        }
-        let mut far = (near + step).min(last);
-        while far - near > 1 {
-            let middle = near + (far - near) / 2;
-            if holds(middle) {
-                near = middle;
-            } else {
-                far = middle;
-            }
-        }
+        let near = reached((from, last), 1, holds);
         at(near).map(|vertex| (near, vertex))
     }
 
@@ -481,6 +468,26 @@ impl<'a> Task<'a> {
                 && found.most.distance <= question.little + 2.0 * SLACK
         })
     }
+}
+
+/// The farthest station before `last` that is reached from `from`, looked for in strides that double from `stride` on and then
+/// by halves; at least the next one.
+fn reached((from, last): (usize, usize), stride: usize, reaches: impl Fn(usize) -> bool) -> usize {
+    let (mut near, mut step) = (from + 1, stride.max(1));
+    while near + step < last && reaches(near + step) {
+        near += step;
+        step *= 2;
+    }
+    let mut far = (near + step).min(last);
+    while far > near + 1 {
+        let middle = near + (far - near) / 2;
+        if reaches(middle) {
+            near = middle;
+        } else {
+            far = middle;
+        }
+    }
+    near
 }
 
 /// Where vertices lie off a track: along the normal, but in the vertical plane of a way in plan.

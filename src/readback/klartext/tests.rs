@@ -61,6 +61,14 @@ fn close(a: f64, b: f64) -> bool {
     (a - b).abs() < 1e-9
 }
 
+/// Each body has a fault with these words.
+fn refused(cases: &[(&str, &str)]) {
+    for (body, words) in cases {
+        let got = trace(&program("MM", body)).faults;
+        assert!(got.iter().any(|f| f.message.contains(words)), "{body}: {got:#?}");
+    }
+}
+
 #[test]
 fn lines_with_their_feeds() {
     let moves = clean("L Z-1 F120\nL X+12.5 Y-3 F300 M8\nL IX+1 IY-1");
@@ -105,22 +113,19 @@ fn circles_about_poles_with_z_lie_in_the_other_planes() {
     assert!(arcs[0].axis.y == 1.0 && close(arcs[0].sweep, PI / 2.0) && close(arcs[1].sweep, -PI / 2.0));
     assert!(arcs[2].axis.x == 1.0 && close(arcs[2].sweep, PI / 2.0) && close(arcs[2].centre.x, 10.0));
     assert_eq!(moves[3].end(), crate::geom::Point3::new(10.0, 5.0, 5.0));
-    for (body, words) in [
+    refused(&[
         ("CC X+0 Y+0 Z+0", "a pole has two coordinates"),
         ("CC Z+0", "a pole has two coordinates"),
         ("CC X+0 Z+0\nC X+0 Y+1 Z-10 DR+ F100", "Y in a C block"),
         ("L Z+0 F100\nCC X+0 Z+0\nC X+0 Z-10.1 DR+", "circle end point incorrect"),
         ("L Z+0 F100\nCC X+0 Z+0\nCP IPA+90 DR+", "CP about a pole with Z"),
         ("L Z+0 F100\nCR X+0 Z-10 R+10 DR+", "Z in a CR block"),
-    ] {
-        let got = trace(&program("MM", body)).faults;
-        assert!(got.iter().any(|f| f.message.contains(words)), "{body}: {got:#?}");
-    }
+    ]);
 }
 
 #[test]
 fn the_control_refuses_what_it_refuses() {
-    for (body, words) in [
+    refused(&[
         ("L X+1", "feed rate is missing"),
         ("L X+1 F100 R0 Q3=1", "Q3 in a motion block"),
         ("L X+1 X+2 F100", "X2 twice"),
@@ -142,10 +147,7 @@ fn the_control_refuses_what_it_refuses() {
         ("FN 0: Q1 = +3", "FN is not followed"),
         ("M128", "M128 is not followed"),
         ("L X+1 WHAT F10", "unknown word WHAT"),
-    ] {
-        let got = trace(&program("MM", body)).faults;
-        assert!(got.iter().any(|f| f.message.contains(words)), "{body}: {got:#?}");
-    }
+    ]);
 }
 
 #[test]

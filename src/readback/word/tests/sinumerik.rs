@@ -33,6 +33,14 @@ fn legs(body: &str) -> Vec<String> {
     trace.events.into_iter().filter_map(leg).skip(1).collect()
 }
 
+/// Each body has a fault with these words.
+fn refused(cases: &[(&str, &str)]) {
+    for (body, words) in cases {
+        let got = run_it(&program(body)).faults;
+        assert!(got.iter().any(|f| f.message.contains(words)), "{body}: {got:#?}");
+    }
+}
+
 #[test]
 fn words_with_and_without_equals() {
     let moves = fine("n10 G1 x=12.5 Y=-3 Z-1 ; a comment\nX=IC(1) Y=AC(4)\nG91 X1 Y=AC(5)\nG90 X1.25EX1");
@@ -127,7 +135,7 @@ fn taps_and_bores_of_calls() {
 
 #[test]
 fn the_control_refuses_what_it_refuses() {
-    for (body, words) in [
+    refused(&[
         ("G2 X0 Y0 I-5.02 J0", "alarm 14040"),
         ("G2 X10 Y0 CR=5", "ends where it starts"),
         ("G1 X1 WHAT", "unknown word WHAT"),
@@ -149,10 +157,7 @@ fn the_control_refuses_what_it_refuses() {
         ("MSG(\"a)b\") X", "unknown word X"),
         ("G0 SUPA Z0 D99", "D99 is no cutting edge"),
         ("MCALL CYCLE81(10,0,2,-8\nG0 X1", "is not closed"),
-    ] {
-        let got = run_it(&program(body)).faults;
-        assert!(got.iter().any(|f| f.message.contains(words)), "{body}: {got:#?}");
-    }
+    ]);
     let long = format!("G1 X1 ;{}", "A".repeat(520));
     assert!(run_it(&program(&long)).faults.iter().any(|f| f.message.contains("the control takes 512")));
 }
@@ -174,15 +179,12 @@ fn a_bspline_starts_where_the_tool_is_and_ends_with_the_next_motion() {
     assert_eq!(moves[1].start(), crate::geom::Point3::new(15.0, 0.0, 8.0));
     let line_of = run_it(&program("BSPLINE SD=3 F50\nX11 Y1\nX12 Y3\nX14 Y3\nX15 Y0\nG1 X16")).events[2].line;
     assert_eq!(line_of, 12);
-    for (body, words) in [
+    refused(&[
         ("BSPLINE SD=3 F50\nX11 Y1\nG1 X12", "needs 4"),
         ("BSPLINE SD=5 F50\nX11 Y1\nG1 X12", "degree 2 or 3"),
         ("BSPLINE\nX11 Y1 PW=0\nX12\nX13\nG1 X12", "PW=0"),
         ("BSPLINE\nX11 Y1 PL=2\nX12\nX13\nG1 X12", "PL=2"),
-    ] {
-        let got = run_it(&program(body)).faults;
-        assert!(got.iter().any(|f| f.message.contains(words)), "{body}: {got:#?}");
-    }
+    ]);
 }
 
 fn tilted(m: &TraceMove) -> &crate::readback::Tilted {
@@ -214,7 +216,7 @@ fn cip_goes_through_its_place_between() {
                 close(arm.norm(), arc.radii().0) && arm.dot(&arc.axis).abs() < 1e-9
             })
     );
-    for (body, words) in [
+    refused(&[
         ("CIP X0", "without a place between"),
         ("CIP X0 I1=5 K1=5", "lie in a line"),
         ("G1 X0 I1=5", "without CIP"),
@@ -222,8 +224,5 @@ fn cip_goes_through_its_place_between() {
         ("CIP X0 I1=AC(5 K1=7", "not closed"),
         ("CIP X0 I1=R5 K1=7", "is not followed by a number"),
         ("CT X0 Y3", "CT"),
-    ] {
-        let got = run_it(&program(body)).faults;
-        assert!(got.iter().any(|f| f.message.contains(words)), "{body}: {got:#?}");
-    }
+    ]);
 }
