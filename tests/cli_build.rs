@@ -319,3 +319,38 @@ fn coolant_survives_a_tool_change_and_one_kind_replaces_the_other() {
         assert!(text.contains("M8") && (post == "grbl" || text.contains("M7")), "{text}");
     }
 }
+
+/// A CL file that takes a moment.
+#[cfg(unix)]
+fn long_cl() -> String {
+    let mut text = "UNITS/ MM\nCUTTER/ 10\nLOADTL/ 1\nSPINDL/ RPM, 1000, CLW\nFEDRAT/ MMPM, 100\n".to_owned();
+    for i in 0..60_000 {
+        text += &format!("GOTO/ {}, {}, {}\n", i % 100, i % 7, f64::from(i % 3) / 10.0);
+    }
+    text + "FINI\n"
+}
+
+#[cfg(unix)]
+#[test]
+fn a_process_that_is_told_to_end_leaves_no_temporary_files() {
+    use std::os::unix::process::ExitStatusExt;
+    let scratch = Scratch::new("signals");
+    scratch.write("long.cl", long_cl()).write("long.fanuc.nc", "the old program");
+    for (name, number) in [("INT", 2), ("TERM", 15)] {
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_partwright"));
+        command.current_dir(&scratch.0).args(["build", "long.cl"]);
+        for post in ["fanuc", "haas", "linuxcnc", "mazak", "mitsubishi", "okuma", "heidenhain", "sinumerik"] {
+            command.args(["--post", post]);
+        }
+        let mut child = command.stderr(std::process::Stdio::null()).spawn().expect("the command starts");
+        while !scratch.names().iter().any(|name| name.ends_with(".tmp")) {
+            assert!(child.try_wait().expect("its state").is_none(), "it ended before a program was staged");
+            std::thread::sleep(std::time::Duration::from_millis(2));
+        }
+        let kill = format!("kill -{name} {}", child.id());
+        std::process::Command::new("sh").args(["-c", &kill]).status().expect("a signal");
+        assert_eq!(child.wait().expect("its end").signal(), Some(number));
+        assert_eq!(scratch.names(), ["long.cl", "long.fanuc.nc"]);
+        assert_eq!(scratch.read("long.fanuc.nc"), "the old program");
+    }
+}

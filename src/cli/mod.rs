@@ -23,6 +23,7 @@ mod report;
 mod schema;
 mod source_map;
 mod staging;
+mod temporary;
 mod test;
 
 use args::{Cli, Verb};

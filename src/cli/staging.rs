@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use super::output::{self, Staged};
 use crate::driver::{Output, Shelf};
@@ -23,6 +23,10 @@ impl<'a> Staging<'a> {
         Staging { destination, staged: Mutex::default() }
     }
 
+    fn lock(&self) -> MutexGuard<'_, BTreeMap<usize, Staged>> {
+        self.staged.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
     /// What has been staged.
     pub fn into_staged(self) -> BTreeMap<usize, Staged> {
         self.staged.into_inner().unwrap_or_else(PoisonError::into_inner)
@@ -33,8 +37,10 @@ impl Shelf for Staging<'_> {
     /// What cannot be staged stays where it is: that it cannot be written is told when all has been proven.
     fn put(&self, index: usize, output: &Output, text: &str) -> bool {
         let Some(destination) = self.destination else { return false };
+        // An earlier text of this output no longer holds.
+        drop(self.lock().remove(&index));
         let Some(staged) = output::stage_early(&destination(output), text.as_bytes()) else { return false };
-        self.staged.lock().unwrap_or_else(PoisonError::into_inner).insert(index, staged);
+        self.lock().insert(index, staged);
         true
     }
 }

@@ -90,7 +90,8 @@ impl Build {
 
 /// Takes proven texts as they are made, so that not all of them are in memory until the last one is proven.
 pub trait Shelf: Sync {
-    /// Takes the text of the output with this index; with `false` it stays in [`Output::proven`].
+    /// Takes the text of the output with this index, in place of an earlier one; with `false` it stays in
+    /// [`Output::proven`], and an earlier one is gone.
     fn put(&self, index: usize, output: &Output, text: &str) -> bool;
 }
 
@@ -101,6 +102,13 @@ impl Shelf for NoShelf {
     fn put(&self, _: usize, _: &Output, _: &str) -> bool {
         false
     }
+}
+
+/// What is kept of the outputs in memory, and where their texts go.
+#[derive(Clone, Copy)]
+struct Keep<'a> {
+    only_nc: bool,
+    shelf: &'a dyn Shelf,
 }
 
 /// Hands the text of a proven output to the shelf.
@@ -133,12 +141,7 @@ pub fn build_to(main: &str, files: &dyn FileProvider, options: &Options, shelf: 
                     of_cl = Some(file);
                     cl_stages(&mut build, (file, &cl), &files, options, shelf, &mut sink);
                 }
-                None => {
-                    stages(&mut build, file, &files, options, &mut sink);
-                    for (index, output) in build.outputs.iter_mut().enumerate() {
-                        shelve(index, output, shelf);
-                    }
-                }
+                None => stages(&mut build, file, &files, options, shelf, &mut sink),
             }
         }
         Err(error) => sink.push(unreadable(main, &error)),
@@ -203,7 +206,7 @@ fn cl_stages(
     if !options.check_only {
         let wanted = targets::wanted(options, &targets::Machines::default(), sink);
         let ready = targets::ready(cl.units, &wanted, options, files, &mut build.sources, sink);
-        let made = targets::make(&cl, &ready, &build.sources, options.only_nc);
+        let made = targets::make(&cl, &ready, &build.sources, Keep { only_nc: options.only_nc, shelf });
         sink.append(made.messages);
         build.outputs = made.outputs;
     }
@@ -246,7 +249,14 @@ impl Recorder<'_> {
 }
 
 /// Runs the stages as far as they go.
-fn stages(build: &mut Build, file: FileId, files: &dyn FileProvider, options: &Options, sink: &mut Sink) {
+fn stages(
+    build: &mut Build,
+    file: FileId,
+    files: &dyn FileProvider,
+    options: &Options,
+    shelf: &dyn Shelf,
+    sink: &mut Sink,
+) {
     let text = build.sources.file(file).text.clone();
     let tree = syntax::parse_columns(file, &text, options.card_columns, sink);
     if options.keep_ast {
@@ -256,7 +266,7 @@ fn stages(build: &mut Build, file: FileId, files: &dyn FileProvider, options: &O
     match sema::analyse_tree(tree, &mut build.sources, files, &evaluation, sink) {
         Ok(program) => {
             build.ir = Some(program);
-            back(build, files, options, sink);
+            back(build, files, options, shelf, sink);
         }
         Err(broken) => {
             let machines = targets::Machines::of(&broken);
@@ -266,7 +276,7 @@ fn stages(build: &mut Build, file: FileId, files: &dyn FileProvider, options: &O
 }
 
 /// From the evaluated program on. What is wrong with the posts is said in any case.
-fn back(build: &mut Build, files: &dyn FileProvider, options: &Options, sink: &mut Sink) {
+fn back(build: &mut Build, files: &dyn FileProvider, options: &Options, shelf: &dyn Shelf, sink: &mut Sink) {
     let Some(ir) = &build.ir else { return };
     let mut planned = Sink::default();
     build.cl = plan::plan(ir, &mut planned);
@@ -277,7 +287,8 @@ fn back(build: &mut Build, files: &dyn FileProvider, options: &Options, sink: &m
     };
     let wanted = targets::wanted(options, &machines, sink);
     let ready = targets::ready(ir.units, &wanted, options, files, &mut build.sources, sink);
-    let (cl, made) = closer(ir, (cl, &mut planned), &ready, &build.sources, options.only_nc);
+    let keep = Keep { only_nc: options.only_nc, shelf };
+    let (cl, made) = closer(ir, (cl, &mut planned), &ready, &build.sources, keep);
     build.cl = Some(cl);
     sink.append(planned);
     sink.append(made.messages);
@@ -291,9 +302,9 @@ fn closer(
     (mut cl, planned): (Cl, &mut Sink),
     ready: &[targets::Ready],
     sources: &SourceMap,
-    only_nc: bool,
+    keep: Keep<'_>,
 ) -> (Cl, targets::Made) {
-    let mut made = targets::make(&cl, ready, sources, only_nc);
+    let mut made = targets::make(&cl, ready, sources, keep);
     let mut closer = Closer::default();
     for round in 1..plan::closer::ROUNDS {
         if made.short.is_empty() {
@@ -305,7 +316,7 @@ fn closer(
         let mut told = Sink::default();
         let Some(next) = plan::plan_closer(ir, &closer, &mut told) else { break };
         *planned = told;
-        made = targets::make(&next, ready, sources, only_nc);
+        made = targets::make(&next, ready, sources, keep);
         cl = next;
     }
     (cl, made)

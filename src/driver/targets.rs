@@ -4,7 +4,7 @@ use std::path::Path;
 
 use rayon::prelude::*;
 
-use super::{Options, Output};
+use super::{Keep, Options, Output, shelve};
 use crate::arena::Arena;
 use crate::cl::Cl;
 use crate::diag::codes::command as codes;
@@ -118,18 +118,19 @@ pub(super) struct Made {
     pub short: Vec<Shortfall>,
 }
 
-/// Makes the program of every post; with `only_nc`, what it was lowered to is not kept.
-pub(super) fn make(cl: &Cl, ready: &[Ready], sources: &SourceMap, only_nc: bool) -> Made {
-    let one = |ready: &Ready| {
+/// Makes the program of every post; its text goes to the shelf as soon as it is proven.
+pub(super) fn make(cl: &Cl, ready: &[Ready], sources: &SourceMap, keep: Keep<'_>) -> Made {
+    let one = |(index, ready): (usize, &Ready)| {
         let mut made = one(cl, ready, sources);
-        if only_nc {
+        if keep.only_nc {
             (made.output.target, made.output.lines) = (None, Vec::new());
         }
+        shelve(index, &mut made.output, keep.shelf);
         made
     };
     let made: Vec<One> = match ready {
-        [only] => vec![one(only)],
-        several => several.par_iter().map(one).collect(),
+        [only] => vec![one((0, only))],
+        several => several.par_iter().enumerate().map(one).collect(),
     };
     let mut all = Made { outputs: Vec::new(), messages: Sink::default(), short: Vec::new() };
     let curable = made.iter().all(|one| one.output.proven.is_some() || !one.short.is_empty());
