@@ -213,6 +213,53 @@ fn trouble_with_test_files_and_nothing_to_do_exit_2() {
 }
 
 #[test]
+fn what_a_test_file_gives_is_shown_in_it() {
+    let scratch = Scratch::new("golden-given");
+    scratch.write("part.apt", PART);
+    let posts = "posts = [\"haas\"]\n[[variant]]\nname = \"fanuk\"\nposts = [\"fanuc\", \"fanuk\"]\n";
+    let cases = [
+        (posts, 2, "part.test.toml:4:19: error[E0701]"),
+        ("posts = [\"./x.post.toml\"]\n", 2, "part.test.toml:1:10: error[E0706]"),
+        (
+            "[[variant]]\nname = \"a\"\ndefine = { DEPS = \"3\", NOPE = \"3mm\" }\n",
+            1,
+            "──── part.test.toml:3:31",
+        ),
+        ("posts = [\"fanuc\", \"Fanuc\"]\n", 2, "part.test.toml:1:19: error[E0955]"),
+    ];
+    for (text, status, place) in cases {
+        scratch.write("part.test.toml", text);
+        let output = scratch.run(&["test", "--message-format", "short"]);
+        let place = place.replace("──── ", "┌─ ");
+        let said = stderr(&output) + &stdout(&output);
+        assert_eq!((code(&output), said.contains(&place)), (status, true), "{place}: {said}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_golden_file_that_cannot_be_read_is_not_a_new_one() {
+    let scratch = Scratch::new("golden-unreadable");
+    scratch.write("part.apt", PART);
+    assert_eq!(code(&scratch.run(&["test", "--accept"])), 0);
+    let link = scratch.0.join("part.fanuc.golden.nc");
+    std::fs::remove_file(&link).expect("removed");
+    std::os::unix::fs::symlink("nowhere", &link).expect("a link");
+    for args in [&["test"][..], &["test", "--accept"]] {
+        let output = scratch.run(args);
+        assert_eq!(code(&output), 2, "{}", stdout(&output));
+        assert!(stderr(&output).contains("E0901") && stderr(&output).contains("part.fanuc.golden.nc"));
+    }
+    assert!(link.is_symlink());
+    // What a killed process left is no golden file.
+    std::fs::remove_file(&link).expect("removed");
+    scratch.write(".part.fanuc.golden.nc.77.tmp", "half").write(".gone.fanuc.golden.nc.77.tmp", "half");
+    assert_eq!(code(&scratch.run(&["test", "--accept"])), 0);
+    let output = scratch.run(&["test"]);
+    assert_eq!(code(&output), 0, "{}", stdout(&output));
+}
+
+#[test]
 fn one_program_can_be_tested_alone_and_threads_do_not_matter() {
     let scratch = Scratch::new("golden-one");
     scratch.write("one.apt", PART).write("two.apt", PART);

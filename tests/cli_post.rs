@@ -181,6 +181,13 @@ fn keys_of_the_post_can_be_set_for_one_run() {
         assert_eq!(code(&output), status, "{set}: {}", stderr(&output));
         assert!(stderr(&output).contains(id), "{set}: {}", stderr(&output));
     }
+    let sets = ["words.x.nope=1", "words.y.nope=2", "inherits=heidenhain"];
+    let given = sets.iter().flat_map(|set| ["--post-set", set]);
+    let args: Vec<&str> = ["build", "points.apt", "--post", "fanuc"].into_iter().chain(given).collect();
+    let output = scratch.run(&args);
+    for part in ["[words.x] has no key", "[words.y] has no key", "`inherits` cannot be set"] {
+        assert!(stderr(&output).contains(part), "{part}: {}", stderr(&output));
+    }
 }
 
 #[test]

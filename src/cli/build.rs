@@ -220,7 +220,7 @@ fn status_of_one(diagnostic: &Diagnostic) -> Status {
 }
 
 /// Codes of files, the command line and post files.
-fn is_trouble(id: &str) -> bool {
+pub fn is_trouble(id: &str) -> bool {
     use crate::diag::codes::{command, post, tools};
     [command::ALL, post::ALL, tools::OF_COMMANDS, tools::OF_POSTS].into_iter().flatten().any(|c| c.id == id)
 }

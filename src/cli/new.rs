@@ -8,7 +8,7 @@ use super::messages::{Messages, to_stderr};
 use super::output::{self, Product};
 use crate::diag::Diagnostic;
 use crate::diag::codes::{post as post_codes, tools as codes};
-use crate::golden::{self, Verdict, sidecar};
+use crate::golden::{self, TestFile, Verdict, sidecar};
 use crate::post;
 use crate::source::{MemoryFiles, SourceMap};
 
@@ -89,7 +89,8 @@ fn golden_files(files: &MemoryFiles) -> Result<Texts, (Vec<Diagnostic>, SourceMa
         Err(errors) => return Err((errors, sources)),
     };
     let mut golden = Vec::new();
-    for made in golden::make(PROGRAM, files, golden::plan(&sidecar, PROGRAM)) {
+    let test = TestFile { name: SIDECAR, text, sidecar: &sidecar };
+    for made in golden::make(PROGRAM, files, Some(test)) {
         if made.build.has_errors() {
             return Err((made.build.diagnostics, made.build.sources));
         }

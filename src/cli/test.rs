@@ -1,5 +1,6 @@
 //! `partwright test`.
 
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -15,7 +16,7 @@ use crate::diag::codes::{command, tools as codes};
 use crate::diag::render::{Format, render};
 use crate::diag::{Diagnostic, Severity};
 use crate::golden::report::Run;
-use crate::golden::{self, Made, Outcome, Verdict, junit, names, report, sidecar};
+use crate::golden::{self, Made, Outcome, TestFile, Verdict, junit, names, report, sidecar};
 use crate::source::SourceMap;
 
 mod find;
@@ -36,7 +37,13 @@ pub fn test(args: &TestArgs, messages: Messages) -> Result<Status, Diagnostic> {
     if trouble != Status::Done {
         return Ok(trouble);
     }
-    let mut run = judge(&found, tested);
+    let mut run = match judge(&found, tested) {
+        Ok(run) => run,
+        Err(unreadable) => {
+            messages.show(&unreadable, &SourceMap::default());
+            return Ok(Status::Trouble);
+        }
+    };
     if let Some(filter) = &args.filter {
         run.outcomes.retain(|o| o.name().contains(filter.as_str()));
         run.skipped.clear();
@@ -71,14 +78,16 @@ struct Tested {
 fn one(program: &Program) -> Tested {
     let disk = Disk::for_main(Path::new(&program.path));
     let made = match &program.sidecar {
-        None => Ok(sidecar::Sidecar::default()),
+        None => Ok(golden::make(&program.path, &disk, None)),
         Some(text) => {
-            let mut sources = SourceMap::default();
-            sidecar::parse(&names::sidecar(&program.path), text, &mut sources)
-                .map_err(|errors| (errors, sources))
+            let (name, mut sources) = (names::sidecar(&program.path), SourceMap::default());
+            let sidecar = sidecar::parse(&name, text, &mut sources).map_err(|errors| (errors, sources));
+            sidecar.map(|sidecar| {
+                let test = TestFile { name: &name, text, sidecar: &sidecar };
+                golden::make(&program.path, &disk, Some(test))
+            })
         }
     };
-    let made = made.map(|sidecar| golden::make(&program.path, &disk, golden::plan(&sidecar, &program.path)));
     Tested { program: program.clone(), made }
 }
 
@@ -102,9 +111,15 @@ fn show_trouble(tested: &[Tested], messages: Messages) -> Status {
     status
 }
 
-/// File trouble in a program that is a test by its own word.
+/// File trouble in a program that is a test by its own word; what its test file names belongs to that.
 fn unreadable(made: &Made, program: &Program) -> bool {
-    let of_files = |d: &Diagnostic| build::status_of(core::slice::from_ref(d)) == Status::Trouble;
+    let test_file = names::sidecar(&program.path);
+    let of_files = |d: &Diagnostic| {
+        let placed = d.primary.as_ref().map(|p| &made.build.sources.file(p.span.file).name);
+        d.severity == Severity::Error
+            && build::is_trouble(d.code.id)
+            && placed.is_none_or(|n| *n == test_file)
+    };
     program.is_test() && made.build.diagnostics.iter().any(of_files) && !lacks_post(made)
 }
 
@@ -113,11 +128,15 @@ fn lacks_post(made: &Made) -> bool {
     made.build.diagnostics.iter().any(|d| d.code.id == command::NO_POST.id)
 }
 
-/// The verdict of every test, in order.
-fn judge(found: &Found, tested: Vec<Tested>) -> Run {
+/// The verdict of every test, in order; nothing can be said when a golden file cannot be read.
+fn judge(found: &Found, tested: Vec<Tested>) -> Result<Run, Vec<Diagnostic>> {
     let mut run = Run::default();
     let included = included(&tested);
-    let read = |name: &str| found.golden(name);
+    let unreadable = RefCell::new(Vec::new());
+    let read = |name: &str| {
+        let golden = found.golden(name)?;
+        golden.map_err(|error| unreadable.borrow_mut().push(error)).ok()
+    };
     for one in &tested {
         let Ok(made) = &one.made else { continue };
         if let Some(why) = why_skipped(one, made, &included) {
@@ -139,7 +158,8 @@ fn judge(found: &Found, tested: Vec<Tested>) -> Run {
     let orphans: Vec<Outcome> =
         found.golden_names().filter(orphan).map(|name| orphaned(name, &tested)).collect();
     run.outcomes.extend(orphans);
-    run
+    let unreadable = unreadable.into_inner();
+    if unreadable.is_empty() { Ok(run) } else { Err(unreadable) }
 }
 
 fn made_all(outcome: &Outcome) -> bool {

@@ -21,6 +21,17 @@ pub mod text;
 
 pub use sidecar::{Sidecar, Variant};
 
+/// A program's test file, as read.
+#[derive(Debug, Clone, Copy)]
+pub struct TestFile<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// Its text.
+    pub text: &'a str,
+    /// What it says.
+    pub sidecar: &'a Sidecar,
+}
+
 /// One build of a program: a variant with all its posts.
 #[derive(Debug, Clone)]
 pub struct Plan {
@@ -65,11 +76,20 @@ pub struct Made {
     pub build: Build,
 }
 
-/// Builds everything of a program.
+/// Builds everything of a program; what is wrong with what its test file gives is shown there.
 #[must_use]
-pub fn make(main: &str, files: &dyn FileProvider, plans: Vec<Plan>) -> Vec<Made> {
-    let one = |plan: Plan| Made { build: driver::build(main, files, &plan.options), plan };
-    plans.into_iter().map(one).collect()
+pub fn make(main: &str, files: &dyn FileProvider, test: Option<TestFile<'_>>) -> Vec<Made> {
+    let own = Sidecar::default();
+    let plans = plan(test.map_or(&own, |t| t.sidecar), main);
+    let one = |(index, plan): (usize, Plan)| {
+        let mut build = driver::build(main, files, &plan.options);
+        if let Some(test) = test.filter(|_| build.diagnostics.iter().any(|d| d.primary.is_none())) {
+            let file = build.sources.add(test.name, test.text);
+            sidecar::locate(&mut build.diagnostics, (test.sidecar, test.text, file), main, index);
+        }
+        Made { plan, build }
+    };
+    plans.into_iter().enumerate().map(one).collect()
 }
 
 /// What a test found.

@@ -52,13 +52,14 @@ fn mistakes_in_test_files_have_their_places() {
     assert!(mistakes("posts = [\n")[0].starts_with("E0955"));
     assert_eq!(
         mistakes(
-            "diagnostics = [\"W9999\", \"E010\"]\n[[variant]]\nname = \"a b\"\n[[variant]]\nname = \"c\"\n[[variant]]\nname = \"c\"\n"
+            "posts = [\"fanuc\", \"FANUC\"]\ndiagnostics = [\"W9999\", \"E010\"]\n[[variant]]\nname = \"a b\"\n[[variant]]\nname = \"c\"\n[[variant]]\nname = \"C\"\n"
         ),
         [
-            "E0955 `a b` `a b` is no name for a variant: use letters, digits, `-` and `_`",
-            "E0955 `c` two variants are called `c`",
-            "E0955 `W9999` there is no diagnostic W9999",
-            "E0955 `E010` there is no diagnostic E010 did you mean E0101?",
+            "E0955 `\"FANUC\"` the post `FANUC` is named twice",
+            "E0955 `\"W9999\"` there is no diagnostic W9999",
+            "E0955 `\"E010\"` there is no diagnostic E010 did you mean E0101?",
+            "E0955 `\"a b\"` `a b` is no name for a variant: use letters, digits, `-` and `_`",
+            "E0955 `\"C\"` two variants are called `C`",
         ]
     );
 }

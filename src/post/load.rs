@@ -208,7 +208,7 @@ impl Loader<'_> {
     }
 
     fn overrides(&mut self, overrides: &[(String, String)]) -> Result<Table, Vec<Diagnostic>> {
-        let mut merged = Table::new();
+        let (mut merged, mut errors) = (Table::new(), Vec::new());
         for (key, value) in overrides {
             let bare = format!("{key} = {value}\n");
             let text = if bare.parse::<toml::Table>().is_ok() {
@@ -217,9 +217,20 @@ impl Loader<'_> {
                 format!("{key} = {}\n", toml::Value::String(value.clone()))
             };
             let file: FileId = self.sources.add(OVERRIDES, text.as_str());
-            merged = tree::merge(merged, tree::parse(file, &text)?);
+            match tree::parse(file, &text) {
+                Ok(table) => merged = tree::merge(merged, table),
+                Err(wrong) => errors.extend(wrong),
+            }
         }
-        Ok(merged)
+        if let Some(entry) = merged.get("inherits") {
+            let message =
+                "`inherits` cannot be set for one run: what a post inherits is read before".to_owned();
+            errors.push(
+                Diagnostic::new(&codes::post::WRONG_VALUE, entry.key, message)
+                    .help("name the other post with --post, or write a post file that inherits it"),
+            );
+        }
+        if errors.is_empty() { Ok(merged) } else { Err(errors) }
     }
 }
 

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::super::disk::{LARGEST, reason};
+use super::super::disk::{LARGEST, LARGEST_CL, reason};
 use crate::clfile;
 use crate::diag::Diagnostic;
 use crate::diag::codes::command as codes;
@@ -44,12 +44,13 @@ pub struct Found {
 }
 
 impl Found {
-    /// The text of a golden file.
-    pub fn golden(&self, name: &str) -> Option<String> {
+    /// The text of a golden file, when there is one.
+    pub fn golden(&self, name: &str) -> Option<Result<String, Diagnostic>> {
         let path = self.golden.get(name)?;
         // What is not text differs from every text.
-        Some(String::from_utf8_lossy(&fs::read(path).ok()?).into_owned())
+        Some(limited(path, LARGEST_CL).map(|bytes| String::from_utf8_lossy(&bytes).into_owned()))
     }
+
     /// Names of all golden files, in order.
     pub fn golden_names(&self) -> impl Iterator<Item = &String> {
         self.golden.keys()
@@ -118,20 +119,28 @@ fn walk(folder: &Path, depth: u32, files: &mut Vec<PathBuf>) -> Result<(), Diagn
 
 fn sidecar(program: &str) -> Result<Option<String>, Diagnostic> {
     let path = PathBuf::from(names::sidecar(program));
-    let size = match fs::metadata(&path) {
-        Ok(metadata) => metadata.len(),
-        Err(_) => return Ok(None),
-    };
-    if size > LARGEST {
-        let message = format!("{} has more than {LARGEST} bytes", path.display());
-        return Err(Diagnostic::global(&codes::TOO_LARGE, message));
+    if fs::symlink_metadata(&path).is_err() {
+        return Ok(None);
     }
-    let bytes = fs::read(&path).map_err(|e| unreadable(&path, &e))?;
-    let text = String::from_utf8(bytes).map_err(|_| {
+    let text = String::from_utf8(limited(&path, LARGEST)?).map_err(|_| {
         Diagnostic::global(&codes::NOT_UTF8, format!("{} is not UTF-8", path.display()))
             .help("save the file as UTF-8")
     })?;
     Ok(Some(text))
+}
+
+/// The bytes of a file; pipes and the like are none.
+fn limited(path: &Path, largest: u64) -> Result<Vec<u8>, Diagnostic> {
+    let metadata = fs::metadata(path).map_err(|e| unreadable(path, &e))?;
+    if !metadata.is_file() {
+        let message = format!("{} cannot be read: it is no file", path.display());
+        return Err(Diagnostic::global(&codes::CANNOT_READ, message));
+    }
+    if metadata.len() > largest {
+        let message = format!("{} has more than {largest} bytes", path.display());
+        return Err(Diagnostic::global(&codes::TOO_LARGE, message));
+    }
+    fs::read(path).map_err(|e| unreadable(path, &e))
 }
 
 fn unreadable(path: &Path, error: &std::io::Error) -> Diagnostic {
