@@ -20,8 +20,15 @@ pub(super) const SPEED_WORDS: &[&str] =
 /// Words that stop the spindle.
 pub(super) const SPINDLE_OFF: &[&str] = &["OFF", "STOP"];
 /// Words of the coolant.
-pub(super) const COOLANTS: &[(&str, Coolant)] =
-    &[("ON", Coolant::Flood), ("FLOOD", Coolant::Flood), ("MIST", Coolant::Mist), ("OFF", Coolant::Off)];
+pub(super) const COOLANTS: &[(&str, Coolant)] = &[
+    ("ON", Coolant::Flood),
+    ("FLOOD", Coolant::Flood),
+    ("MIST", Coolant::Mist),
+    ("THRU", THROUGH),
+    ("OFF", Coolant::Off),
+];
+/// Where it is needed; `--lenient` takes flood in its place.
+const THROUGH: Coolant = Coolant::Through { needed: true };
 /// Words that ask for compensation in the control, and that it ends.
 pub(super) const COMPENSATION: (&[&str], &[&str]) = (&["LEFT", "RIGHT", "ON"], &["OFF"]);
 
@@ -190,6 +197,9 @@ impl Reader<'_> {
     fn coolnt(&mut self, s: &Statement) {
         let word = s.words().next().unwrap_or("ON");
         match COOLANTS.iter().find(|(w, _)| *w == word) {
+            Some((_, Coolant::Through { .. })) => {
+                self.switch_coolant(Coolant::Through { needed: !self.lenient() });
+            }
             Some((_, coolant)) => self.switch_coolant(*coolant),
             None => {
                 let message = format!("COOLNT with {word} cannot be carried out");

@@ -244,7 +244,10 @@ impl<'t> Reader<'t> {
             return self.raw(word, rest);
         }
         if text.len() > LONGEST_RECORD {
-            let message = format!("a record of {} bytes: they have {LONGEST_RECORD} at most", trimmed.len());
+            let message = format!(
+                "a record of {} bytes with its blanks: they have {LONGEST_RECORD} at most",
+                text.len()
+            );
             return self.complain(&codes::BAD_RECORD, message);
         }
         if self.state.continues && trimmed.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c)) {

@@ -116,3 +116,67 @@ fn passes_lie_closer_only_where_that_is_asked_for() {
     assert!(before < near && near < all && all < 3 * before, "{before} {near} {all}");
     assert_eq!(before, passes(&[(1, place)], true));
 }
+
+const THROUGH: &str = "T1 = CUTTER/ FLAT, 6, NUMBER, 1\nT2 = CUTTER/ FLAT, 8, NUMBER, 2\nLOADTL/ T1\nSPINDL/ 900, CLW\n\
+    FEDRAT/ 300\nCOOLNT/ THRU\nRAPID\nGOTO/ 0, 0, 5\nGOTO/ 10, 0, 5\nCOOLNT/ FLOOD\nGOTO/ 20, 0, 5\nCOOLNT/ THRU\n\
+    LOADTL/ T2\nSPINDL/ 900, CLW\nRAPID\nGOTO/ 0, 0, 5\nGOTO/ 10, 0, 5\nFINI\n";
+const OWN: &str = "inherits = \"fanuc\"\n[post]\ncontrol = \"fanuc M51=through M59=through-off\"\n\
+    [coolant]\nthrough = \"M51\"\nthrough-off = \"M59\"\n";
+
+/// The program's M codes of coolant, or the codes of its messages.
+fn coolant(name: &str, source: &str, post: &str) -> Result<String, Vec<&'static str>> {
+    let files = [
+        (name, source),
+        ("own.post.toml", OWN),
+        ("lie.post.toml", &OWN.replace("through = \"M51\"", "through = \"M59\"")),
+    ];
+    let files = MemoryFiles(files.map(|(name, text)| (name.to_owned(), text.to_owned())).into());
+    let options = Options { posts: vec![post.to_owned()], ..Options::default() };
+    let build = build(name, &files, &options);
+    let Some(proven) = build.outputs.first().and_then(|o| o.proven.as_ref()) else {
+        return Err(build.diagnostics.iter().map(|d| d.code.id).collect());
+    };
+    let codes = proven
+        .text()
+        .split_whitespace()
+        .filter(|w| ["M7", "M8", "M9", "M88", "M89", "M51", "M59"].contains(w));
+    Ok(codes.collect::<Vec<_>>().join(" "))
+}
+
+#[test]
+fn coolant_through_the_tool_has_words_of_its_own_and_is_not_replaced() {
+    let through = |post| coolant("a.apt", THROUGH, post);
+    assert_eq!(through("haas").as_deref(), Ok("M88 M89 M8 M9 M88 M89 M88 M89"));
+    assert_eq!(through("own.post.toml").as_deref(), Ok("M51 M59 M8 M9 M51 M59 M51 M59"));
+    assert_eq!(through("fanuc"), Err(vec!["E0609"; 2]));
+    assert!(through("lie.post.toml").is_err_and(|codes| codes.iter().all(|c| c.starts_with("E08"))));
+}
+
+/// Takes the texts of some outputs.
+struct Takes(Mutex<BTreeMap<usize, String>>, usize);
+
+impl Shelf for Takes {
+    fn put(&self, index: usize, _: &Output, text: &str) -> bool {
+        if index != self.1 {
+            self.0.lock().expect("no panic").insert(index, text.to_owned());
+        }
+        index != self.1
+    }
+}
+
+#[test]
+fn texts_of_programs_go_to_the_shelf_as_they_are_proven() {
+    let files = MemoryFiles(BTreeMap::from([("a.apt".to_owned(), THROUGH.replace("THRU", "MIST"))]));
+    let posts = ["fanuc", "haas", "linuxcnc"].map(str::to_owned).to_vec();
+    let options = Options { posts, ..Options::default() };
+    let shelf = Takes(Mutex::default(), 1);
+    let staged = build_to("a.apt", &files, &options, &shelf);
+    let kept = build("a.apt", &files, &options);
+    let taken = shelf.0.into_inner().expect("no panic");
+    for (index, (staged, kept)) in staged.outputs.iter().zip(&kept.outputs).enumerate() {
+        let text = |output: &Output| output.proven.as_ref().expect("proven").text().to_owned();
+        let found = if index == 1 { text(staged) } else { taken[&index].clone() };
+        assert!(!found.is_empty() && found == text(kept));
+        assert!(index == 1 || text(staged).is_empty());
+    }
+}

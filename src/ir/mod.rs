@@ -372,14 +372,20 @@ pub enum Feed {
 }
 
 /// Coolant command.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Coolant {
     /// Off.
+    #[default]
     Off,
     /// Flood (M8).
     Flood,
     /// Mist (M7).
     Mist,
+    /// Through the spindle and the tool; each machine has its own word for it.
+    Through {
+        /// Where the control has no word for it, flood will not do.
+        needed: bool,
+    },
 }
 
 /// How a contour is to be expressed.

@@ -258,6 +258,7 @@ fn step_text(kind: &StepKind) -> String {
             Coolant::Off => "coolant off".into(),
             Coolant::Flood => "coolant flood".into(),
             Coolant::Mist => "coolant mist".into(),
+            Coolant::Through { .. } => "coolant through the tool".into(),
         },
         StepKind::Dwell(seconds) => format!("dwell {} s", num(*seconds)),
         StepKind::Stop => "stop".into(),

@@ -10,7 +10,7 @@ use super::spline::Told;
 use super::tools::Tools;
 use crate::arena::Handle;
 use crate::cl::{Cl, Contour, Lead, Record, RecordKind};
-use crate::diag::{Code, Sink, codes};
+use crate::diag::{Code, Diagnostic, Sink, codes};
 use crate::geom::Point3;
 use crate::ir::at_origin;
 use crate::ir::{Band, Coolant, Feed, Origin, Spindle};
@@ -268,20 +268,19 @@ impl<'a> Emitter<'a> {
 
     /// One message a code and statement.
     pub(super) fn complain(&mut self, code: &'static Code, message: String) {
-        let key = (code.id, self.origin);
-        if !self.complaints.contains(&key) && self.told + self.complaints.len() < MAX_COMPLAINTS {
-            self.complaints.push(key);
-            self.sink.push(at_origin(code, &self.cl.origins, self.origin, message));
-        }
+        self.complain_of(at_origin(code, &self.cl.origins, self.origin, message));
     }
 
-    pub(super) fn feed_trouble(&mut self, trouble: &FeedTrouble) -> FeedWord {
-        let diagnostic = trouble.diagnostic(&self.cl.origins, self.origin);
+    fn complain_of(&mut self, diagnostic: Diagnostic) {
         let key = (diagnostic.code.id, self.origin);
         if !self.complaints.contains(&key) && self.told + self.complaints.len() < MAX_COMPLAINTS {
             self.complaints.push(key);
             self.sink.push(diagnostic);
         }
+    }
+
+    pub(super) fn feed_trouble(&mut self, trouble: &FeedTrouble) -> FeedWord {
+        self.complain_of(trouble.diagnostic(&self.cl.origins, self.origin));
         FeedWord::PerMinute(1)
     }
 
@@ -381,15 +380,17 @@ impl<'a> Emitter<'a> {
 
     fn coolant(&mut self, coolant: Coolant) {
         let possible = match coolant {
-            Coolant::Off => self.capabilities.flood || self.capabilities.mist,
+            Coolant::Off => self.capabilities.flood || self.capabilities.mist || self.capabilities.through,
             Coolant::Flood => self.capabilities.flood,
             Coolant::Mist => self.capabilities.mist,
+            Coolant::Through { .. } => self.capabilities.through,
         };
         if possible {
             return self.switch_coolant(coolant);
         }
         let other = match coolant {
-            Coolant::Mist if self.capabilities.flood => Some(Coolant::Flood),
+            Coolant::Through { needed: true } => return self.no_through(),
+            Coolant::Mist | Coolant::Through { .. } if self.capabilities.flood => Some(Coolant::Flood),
             Coolant::Flood if self.capabilities.mist => Some(Coolant::Mist),
             _ => None,
         };
@@ -402,6 +403,14 @@ impl<'a> Emitter<'a> {
         if let Some(other) = other {
             self.switch_coolant(other);
         }
+    }
+
+    fn no_through(&mut self) {
+        let message = format!("`{}` has no word for coolant through the tool", self.capabilities.name);
+        let help = "a post of your machine says it, for M51 and M59 with `control = \"fanuc M51=through M59=through-off\"` in \
+                    [post], `through = \"M51\"` and `through-off = \"M59\"` in [coolant]; a CL file with --lenient takes flood";
+        let code = &codes::lowering::NO_THROUGH;
+        self.complain_of(at_origin(code, &self.cl.origins, self.origin, message).help(help));
     }
 
     /// Flood and mist are switched on one by one, and off together: one does not replace the other.

@@ -177,13 +177,10 @@ fn differences(a: &TraceMove, b: &TraceMove, rate: f64) -> Vec<(Property, [Strin
 }
 
 fn coolant(on: Washing) -> String {
-    match (on.flood, on.mist) {
-        (false, false) => "off",
-        (true, false) => "flood",
-        (false, true) => "mist",
-        (true, true) => "flood and mist",
+    match on.names().as_slice() {
+        [] => "off".to_owned(),
+        names => names.join(" and "),
     }
-    .to_owned()
 }
 
 /// At most four decimals.

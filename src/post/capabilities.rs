@@ -72,6 +72,7 @@ impl Dialect {
             ranges: self.ranges(unit),
             mist: !spec.coolant.mist.is_empty(),
             flood: !spec.coolant.flood.is_empty(),
+            through: !spec.coolant.through.is_empty(),
             work_offset: self.work_offset(&options, unit),
             options,
             optional_stop: !spec.stops.optional.is_empty(),

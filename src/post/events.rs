@@ -25,6 +25,7 @@ pub(super) struct Carry {
     tool_changes: usize,
     spindle_on: bool,
     coolant_on: bool,
+    through: bool,
     speed: i64,
     said_speed: Option<i64>,
 }
@@ -45,6 +46,8 @@ pub(super) struct Events<'a> {
     spindle: WordFormat,
     pub(super) spindle_on: bool,
     pub(super) coolant_on: bool,
+    /// Coolant through the tool flows, and has a word of its own to end it.
+    through: bool,
     /// Speed of the spindle, printed steps.
     pub(super) speed: i64,
     /// Speed that the tool change has said.
@@ -77,6 +80,7 @@ impl<'a> Events<'a> {
             spindle,
             spindle_on: false,
             coolant_on: false,
+            through: false,
             speed: 0,
             said_speed: None,
             cycle: None,
@@ -94,6 +98,7 @@ impl<'a> Events<'a> {
             tool_changes: self.tool_changes,
             spindle_on: self.spindle_on,
             coolant_on: self.coolant_on,
+            through: self.through,
         }
     }
 
@@ -107,6 +112,7 @@ impl<'a> Events<'a> {
         self.tool_changes = carry.tool_changes;
         self.spindle_on = carry.spindle_on;
         self.coolant_on = carry.coolant_on;
+        self.through = carry.through;
     }
 
     pub fn into_writer(self) -> Writer<'a> {
@@ -171,6 +177,7 @@ impl<'a> Events<'a> {
     fn end(&mut self) {
         let spec = &self.writer.dialect.spec;
         self.home_plane();
+        self.through_off();
         if !matches!(self.writer.state.mode, None | Some(PER_MINUTE)) {
             self.writer.text_line(&spec.codes.per_minute, true);
         }
@@ -186,6 +193,7 @@ impl<'a> Events<'a> {
         if self.tool_changes > 0 {
             self.home_plane();
         }
+        self.through_off();
         let mut context = self.context();
         context.tool = Some(self.tool_context(tool));
         context.first = Some(self.tool_changes == 0);
@@ -317,14 +325,25 @@ impl<'a> Events<'a> {
     }
 
     fn coolant(&mut self, coolant: Coolant) {
-        self.coolant_on = coolant != Coolant::Off;
         let words = &self.writer.dialect.spec.coolant;
         let code = match coolant {
+            Coolant::Off if self.through => return self.through_off(),
             Coolant::Off => &words.off,
             Coolant::Flood => &words.flood,
             Coolant::Mist => &words.mist,
+            Coolant::Through { .. } => &words.through,
         };
+        self.coolant_on = coolant != Coolant::Off;
+        self.through = matches!(coolant, Coolant::Through { .. }) && !words.through_off.is_empty();
         self.writer.text_line(code, true);
+    }
+
+    /// Where coolant through the tool has a word of its own to end it, templates that say `off` do not end it.
+    fn through_off(&mut self) {
+        if self.through {
+            (self.through, self.coolant_on) = (false, false);
+            self.writer.text_line(&self.writer.dialect.spec.coolant.through_off, true);
+        }
     }
 
     fn dwell(&mut self, seconds: f64) {

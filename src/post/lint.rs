@@ -235,6 +235,8 @@ impl Lint<'_> {
             ("spindle.off", &spec.spindle.off),
             ("coolant.flood", &spec.coolant.flood),
             ("coolant.off", &spec.coolant.off),
+            ("coolant.mist", &spec.coolant.mist),
+            ("coolant.through", &spec.coolant.through),
             ("stops.stop", &spec.stops.stop),
             ("stops.optional", &spec.stops.optional),
         ];

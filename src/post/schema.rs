@@ -315,6 +315,8 @@ const SPINDLE: &[Key] = &[
 const COOLANT: &[Key] = &[
     key("flood", Shape::Text, "flood on; empty: the control has none"),
     key("mist", Shape::Text, "mist on; empty: the control has none"),
+    key("through", Shape::Text, "coolant through the tool on; empty: the control has none"),
+    key("through-off", Shape::Text, "that off, also before a tool change and at the end; empty: `off` does"),
     key("off", Shape::Text, "off"),
 ];
 const STOPS: &[Key] = &[

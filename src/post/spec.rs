@@ -394,6 +394,10 @@ pub struct Coolant {
     pub flood: String,
     pub mist: String,
     pub off: String,
+    #[serde(default)]
+    pub through: String,
+    #[serde(default)]
+    pub through_off: String,
 }
 
 #[derive(Debug, Clone, Deserialize)]

@@ -111,6 +111,17 @@ pub struct Washing {
     pub flood: bool,
     /// M7.
     pub mist: bool,
+    /// Through the spindle and the tool.
+    pub through: bool,
+}
+
+impl Washing {
+    /// What is on.
+    #[must_use]
+    pub fn names(self) -> Vec<&'static str> {
+        let all = [(self.flood, "flood"), (self.mist, "mist"), (self.through, "through-tool")];
+        all.into_iter().filter_map(|(on, name)| on.then_some(name)).collect()
+    }
 }
 
 /// Feed modes.

@@ -339,6 +339,7 @@ impl Analyser<'_> {
         let coolant = match m.word("state") {
             Some("FLOOD") => Coolant::Flood,
             Some("MIST") => Coolant::Mist,
+            Some("THRU") => Coolant::Through { needed: true },
             Some("ON") => self.state.last_coolant,
             _ => Coolant::Off,
         };

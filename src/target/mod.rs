@@ -138,6 +138,8 @@ pub struct Capabilities {
     pub mist: bool,
     /// Flood coolant can be switched.
     pub flood: bool,
+    /// Coolant through the tool can be switched.
+    pub through: bool,
     /// Optional stop.
     pub optional_stop: bool,
     /// What templates read as `options`: the post's own values and those that `MACHIN` changes.

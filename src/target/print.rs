@@ -90,6 +90,7 @@ fn coolant_name(coolant: Coolant) -> &'static str {
         Coolant::Off => "off",
         Coolant::Flood => "flood",
         Coolant::Mist => "mist",
+        Coolant::Through { .. } => "through the tool",
     }
 }
 

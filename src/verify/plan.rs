@@ -15,8 +15,8 @@ pub(super) struct Asked {
     pub feed: f64,
     /// Spindle, rev/min, negative counter-clockwise.
     pub spindle: f64,
-    /// Flood and mist.
-    pub coolant: (bool, bool),
+    /// Coolant.
+    pub coolant: Coolant,
 }
 
 /// What a part of a program leaves in force for the next.
@@ -158,7 +158,7 @@ impl Orders {
             match &record.kind {
                 RecordKind::BeginOperation(index) => *operation = Some(*index as usize),
                 RecordKind::Spindle(spindle) => asked.spindle = signed(*spindle),
-                RecordKind::Coolant(c) => asked.coolant = (*c == Coolant::Flood, *c == Coolant::Mist),
+                RecordKind::Coolant(c) => asked.coolant = *c,
                 RecordKind::Feed(f) => *feed = *f,
                 RecordKind::BeginCycle(cycle) => {
                     let into = per_minute(cycle.feed, asked.spindle);

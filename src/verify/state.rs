@@ -4,6 +4,8 @@ use super::finding::{Finding, Text};
 use super::{Case, Placed};
 use crate::cl::RecordKind;
 use crate::diag::codes::verification as codes;
+use crate::ir::Coolant;
+use crate::readback::Washing;
 use crate::target::{BlockKind, FeedWord, Motion, power_of_ten};
 
 /// How far a feed along the path may differ from the one commanded, as a share of it. Covers the rounding of F words,
@@ -73,30 +75,34 @@ fn work_offset(case: &Case<'_>, placed: &Placed<'_>) -> Option<Text> {
 
 /// The coolant that was asked for flows, as far as the control can switch it; an `INSERT` may have switched more on.
 fn coolant(case: &Case<'_>, placed: &Placed<'_>) -> Option<Text> {
-    let (flood, mist) = asked(case, placed)?.coolant;
     let can = &case.target.capabilities;
-    let wanted = match (flood, mist) {
-        (true, _) if !can.flood => (false, can.mist),
-        (_, true) if !can.mist => (can.flood, false),
-        other => other,
+    let (flood, mist) = (Washing { flood: can.flood, ..OFF }, Washing { mist: can.mist, ..OFF });
+    let wanted = match asked(case, placed)?.coolant {
+        Coolant::Off => OFF,
+        Coolant::Flood if can.flood => flood,
+        Coolant::Flood => mist,
+        Coolant::Mist if can.mist => mist,
+        Coolant::Through { .. } if can.through => Washing { through: true, ..OFF },
+        Coolant::Mist | Coolant::Through { .. } => flood,
     };
-    let got = (placed.cut.coolant.flood, placed.cut.coolant.mist);
+    let got = placed.cut.coolant;
     if got == wanted {
         return None;
     }
     let more_is_fine = case.target.blocks.iter().any(|b| matches!(b.kind, BlockKind::Insert(_)));
-    let missing = wanted.0 && !got.0 || wanted.1 && !got.1;
+    let missing = wanted.flood && !got.flood || wanted.mist && !got.mist || wanted.through && !got.through;
     (missing || !more_is_fine).then(|| {
         Text::default().words(format!("a cut with {} in place of {}", washing(got), washing(wanted)))
     })
 }
 
-fn washing(coolant: (bool, bool)) -> &'static str {
-    match coolant {
-        (true, true) => "flood and mist",
-        (true, false) => "flood coolant",
-        (false, true) => "mist coolant",
-        (false, false) => "no coolant",
+/// No coolant.
+const OFF: Washing = Washing { flood: false, mist: false, through: false };
+
+fn washing(coolant: Washing) -> String {
+    match coolant.names().as_slice() {
+        [] => "no coolant".to_owned(),
+        names => format!("{} coolant", names.join(" and ")),
     }
 }
 

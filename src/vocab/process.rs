@@ -203,6 +203,7 @@ const COOLNT: &[Form] = &[form(
         &[
             word("FLOOD", "flood, M8"),
             word("MIST", "mist, M7"),
+            word("THRU", "through the tool, where the post has a word for it"),
             word("OFF", "off, M9"),
             word("ON", "as before, or flood"),
         ],

@@ -269,7 +269,7 @@ fn chunks_are_the_whole() {
 
 #[test]
 fn a_cause_is_told_once_with_how_often_it_came() {
-    let body = "FEEDRT/1\nGOTO/1,1,1\nFEEDRT/2\nGOTO/2,2,2\nFEEDRT/3\nCOOLNT/THRU\nCOOLNT/THRU\nSPINFL/4";
+    let body = "FEEDRT/1\nGOTO/1,1,1\nFEEDRT/2\nGOTO/2,2,2\nFEEDRT/3\nCOOLNT/HIGH\nCOOLNT/HIGH\nSPINFL/4";
     let options = Options::default();
     let text = framed(body);
     let (_, sink) = Reader::new(FileId(0), "part.cl", &text, &options).whole();
@@ -278,7 +278,7 @@ fn a_cause_is_told_once_with_how_often_it_came() {
         told,
         [
             "the record `FEEDRT` is not known (and 2 more like it)",
-            "COOLNT with THRU cannot be carried out (and 1 more like it)",
+            "COOLNT with HIGH cannot be carried out (and 1 more like it)",
             "the record `SPINFL` is not known",
         ]
     );

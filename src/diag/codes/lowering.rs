@@ -128,6 +128,13 @@ pub const ONE_PECK: Code = Code {
     page: include_str!("../../../docs/diagnostics/N0611.md"),
 };
 
+/// coolant through the tool is not a word of the controller.
+pub const NO_THROUGH: Code = Code {
+    id: "E0609",
+    title: "the controller has no word for coolant through the tool",
+    page: include_str!("../../../docs/diagnostics/E0609.md"),
+};
+
 /// All codes of this area.
 pub const ALL: &[&Code] = &[
     &CANNOT_FIT,
@@ -148,4 +155,5 @@ pub const ALL: &[&Code] = &[
     &CYCLE_EXPANDED,
     &NO_CYCLE,
     &ONE_PECK,
+    &NO_THROUGH,
 ];

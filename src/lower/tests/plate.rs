@@ -196,6 +196,12 @@ fn coolant_and_optional_stops_are_replaced_with_notes() {
     let codes: Vec<&str> = messages.iter().map(|m| m.code.id).collect();
     assert_eq!(codes, ["N0607", "N0608"]);
     assert!(target.is_some());
+    for (needed, code) in [(false, "N0607"), (true, "E0609")] {
+        let draft = Draft::new().add(RecordKind::Coolant(Coolant::Through { needed }));
+        let (target, messages) = lowered(&draft.cl, &dialect("fanuc", None), None);
+        assert_eq!(messages.iter().map(|m| m.code.id).collect::<Vec<_>>(), [code]);
+        assert_eq!(target.is_some(), !needed);
+    }
 }
 
 #[test]

@@ -138,8 +138,9 @@ impl<'a> Reader<'a> {
             "COOLNT" => match arguments {
                 ["FLOOD" | "ON"] => self.coolant.flood = true,
                 ["MIST"] => self.coolant.mist = true,
+                ["THRU"] => self.coolant.through = true,
                 ["OFF"] => self.coolant = Washing::default(),
-                _ => out.fault("COOLNT is ON, FLOOD, MIST or OFF"),
+                _ => out.fault("COOLNT is ON, FLOOD, MIST, THRU or OFF"),
             },
             "LOADTL" => self.load(arguments.first().copied(), out),
             "LOAD" if arguments.first() == Some(&"TOOL") => self.load(arguments.get(1).copied(), out),

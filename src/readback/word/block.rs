@@ -116,6 +116,7 @@ impl Block {
                         continue;
                     }
                     (Some(Meant::Code(meant)), _) => meant,
+                    (Some(Meant::Through(on)), _) => renamed::through(on),
                     (None, Some(other)) => {
                         let (meant, written) = (renamed::name(letter, code), other.name());
                         fault(format!("unknown code {meant}: this machine calls it {written}"));

@@ -224,6 +224,12 @@ pub(in crate::readback) enum M {
     },
     /// M9.
     CoolantOff,
+    /// M9 where coolant through the tool has a code of its own to end it.
+    WashOff,
+    /// M88 and the like: coolant through the tool.
+    ThroughOn,
+    /// M89 and the like.
+    ThroughOff,
     /// M53 and M54: cycles return to the height of G71, or to R (Okuma).
     CycleReturn {
         /// M54.
@@ -242,7 +248,7 @@ impl M {
             M::Stop { .. } | M::End => 0,
             M::SpindleOn { .. } | M::SpindleOff => 1,
             M::ToolChange => 2,
-            M::CoolantOn { .. } | M::CoolantOff => 3,
+            M::CoolantOn { .. } | M::CoolantOff | M::WashOff | M::ThroughOn | M::ThroughOff => 3,
             M::NoEffect => 5,
             M::CycleReturn { .. } => 7,
             M::Unfollowed => 6,

@@ -2,6 +2,7 @@
 
 use super::block::{Block, bit};
 use super::codes::{G, Group, M, Mode};
+use super::renamed;
 use super::rules::{FeedReset, Language, Rules, Unpointed};
 use super::state::{Plan, State};
 use crate::readback::out::Out;
@@ -110,7 +111,7 @@ impl<'a> Machine<'a> {
             good &= self.gather_g(code, g, &mut plan, out);
         }
         for code in block.m.iter() {
-            let Some(m) = (self.rules.m)(code) else {
+            let Some(m) = renamed::inside(code).or_else(|| (self.rules.m)(code)) else {
                 out.fault(format!("unknown code M{}", tenths(code)));
                 good = false;
                 continue;
@@ -270,6 +271,9 @@ impl<'a> Machine<'a> {
         match plan.coolant {
             Some(M::CoolantOn { mist: true }) => self.state.coolant.mist = true,
             Some(M::CoolantOn { mist: false }) => self.state.coolant.flood = true,
+            Some(M::ThroughOn) => self.state.coolant.through = true,
+            Some(M::ThroughOff) => self.state.coolant.through = false,
+            Some(M::WashOff) => (self.state.coolant.flood, self.state.coolant.mist) = (false, false),
             Some(_) => self.state.coolant = Washing::default(),
             None => {}
         }
@@ -507,7 +511,9 @@ fn gather_m<S: Follow>(code: u16, m: M, plan: &mut Plan, out: &mut Out<'_, S>) -
         M::Stop { .. } | M::End => plan.stop = Some(m),
         M::SpindleOn { .. } | M::SpindleOff => plan.spindle = Some(m),
         M::ToolChange => plan.tool_change = true,
-        M::CoolantOn { .. } | M::CoolantOff => plan.coolant = Some(m),
+        M::CoolantOn { .. } | M::CoolantOff | M::WashOff | M::ThroughOn | M::ThroughOff => {
+            plan.coolant = Some(m);
+        }
         M::CycleReturn { to_r } => plan.return_to_r = Some(to_r),
         M::NoEffect => {}
         M::Unfollowed => {

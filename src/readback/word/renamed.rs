@@ -1,5 +1,7 @@
 //! Codes that a machine calls otherwise than the control whose reader reads its programs.
 
+use super::codes::M;
+
 /// `G71=G21`: what the machine writes, and what the reader calls it. Codes in tenths.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::readback) struct Renamed {
@@ -16,11 +18,14 @@ pub(in crate::readback) enum Meant {
     Code(u16),
     /// Nothing that changes the path or what the spindle does.
     Nothing,
+    /// Coolant through the tool, on or off.
+    Through(bool),
     /// It has no such code.
     Unknown,
 }
 
-/// `G71` and `G21`; `nothing` and `unknown` in place of the second.
+/// `G71` and `G21`; `nothing`, `unknown`, `through` and `through-off` in place of the
+/// second.
 ///
 /// # Errors
 /// What stands there instead.
@@ -30,6 +35,7 @@ pub(in crate::readback) fn read(written: &str, meant: &str) -> Result<Renamed, S
     let meant = match meant {
         "nothing" => Meant::Nothing,
         "unknown" => Meant::Unknown,
+        "through" | "through-off" if letter == b'M' => Meant::Through(meant == "through"),
         _ => {
             let (other, meant) = code(meant).ok_or_else(|| no_code(meant))?;
             if other != letter || meant == number {
@@ -39,6 +45,20 @@ pub(in crate::readback) fn read(written: &str, meant: &str) -> Result<Renamed, S
         }
     };
     Ok(Renamed { letter, written: number, meant })
+}
+
+/// What coolant through the tool is called inside: no program can write these numbers.
+pub(in crate::readback) fn through(on: bool) -> u16 {
+    u16::MAX - u16::from(on)
+}
+
+/// What a number that only [`through`] gives means.
+pub(in crate::readback) fn inside(code: u16) -> Option<M> {
+    match code {
+        _ if code == through(true) => Some(M::ThroughOn),
+        _ if code == through(false) => Some(M::ThroughOff),
+        _ => None,
+    }
 }
 
 /// Letter and number in tenths.

@@ -41,8 +41,9 @@ fn m(tenths: u16) -> Option<M> {
     Some(match tenths {
         // Air blast, through-spindle and through-tool air, chip conveyor.
         830 | 840 | 730 | 740 | 310 | 330 => M::NoEffect,
-        880 => M::CoolantOn { mist: false },
-        890 => M::CoolantOff,
+        880 => M::ThroughOn,
+        890 => M::ThroughOff,
+        90 => M::WashOff,
         970 => M::Unfollowed,
         _ => return fanuc::m(tenths),
     })
