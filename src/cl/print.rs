@@ -454,6 +454,7 @@ fn coolant_word(coolant: Coolant) -> &'static str {
         Coolant::Off => "OFF",
         Coolant::Flood => "FLOOD",
         Coolant::Mist => "MIST",
+        Coolant::Through { .. } => "THRU",
     }
 }
 
