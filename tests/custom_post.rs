@@ -36,15 +36,23 @@ fn a_controller_written_in_one_file_makes_proven_programs() {
 }
 
 /// Posts of controls that are not built in, or not so, by their files; all but the last are for people to look at.
-const POSTS: [&str; 4] = [
+const POSTS: [&str; 7] = [
     "examples/posts/fagor.post.toml",
+    "examples/posts/itnc530.post.toml",
+    "examples/posts/linuxcnc_g5.post.toml",
     "examples/posts/num.post.toml",
     "examples/posts/sinumerik_cip.post.toml",
+    "examples/posts/sinumerik_poly.post.toml",
     "tests/data/posts/syntec.post.toml",
 ];
-/// Programs of which all posts' texts are looked at, and one of which the arcs of other planes are.
+/// Programs of which all posts' texts are looked at, and those that show what a post is for.
 const SHOWN: [&str; 2] = ["plate_cam.apt", "nx_cover.cls"];
-const ARCS: (&str, &str) = ("net_arcs.apt", "sinumerik_cip");
+const OWN: [(&str, &str); 4] = [
+    ("net_arcs.apt", "sinumerik_cip"),
+    ("plate_cam_nurbs.apt", "itnc530"),
+    ("plate_cam_nurbs.apt", "linuxcnc_g5"),
+    ("plate_cam_nurbs.apt", "sinumerik_poly"),
+];
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -86,9 +94,25 @@ fn posts_of_other_controls_make_proven_programs_of_all_examples() {
         assert_eq!(proven.len(), POSTS.len(), "{name}: {:?}", build.diagnostics);
         let name = name.trim_start_matches("examples/");
         for (output, proven) in proven {
-            if SHOWN.contains(&name) || ARCS == (name, output.post.as_str()) {
+            if SHOWN.contains(&name) || OWN.contains(&(name, output.post.as_str())) {
                 insta::assert_snapshot!(format!("{name}.{}", output.post), proven.text());
             }
         }
+    }
+}
+
+/// Curves of a CL file, level and climbing, as the pieces of those posts that have them.
+#[test]
+fn curves_of_cl_files_become_pieces() {
+    let posts =
+        ["itnc530", "linuxcnc_g5", "sinumerik_poly"].map(|post| format!("examples/posts/{post}.post.toml"));
+    let options = Options { posts: posts.to_vec(), is_cl: true, ..Options::default() };
+    let build = driver::build("tests/cl/nx_curves.clsf", &Directory(root().to_path_buf()), &options);
+    let said: Vec<(&str, &str)> = build.diagnostics.iter().map(|d| (d.code.id, d.message.as_str())).collect();
+    let climbs = "1 curve (NURBS) is cut by 51 lines, at most 0.0094 mm off: `linuxcnc_g5` has curves in the XY plane only, and their height changes";
+    assert_eq!(said, [("N1013", climbs)]);
+    for output in &build.outputs {
+        let proven = output.proven.as_ref().expect("proven");
+        insta::assert_snapshot!(format!("nx_curves.clsf.{}", output.post), proven.text());
     }
 }

@@ -216,6 +216,7 @@ fn fit_as(
 fn knots(capabilities: &Capabilities) -> fit::Knots {
     match capabilities.nurbs {
         Some(NurbsForm::G062 { knot_decimals }) => fit::Knots::Printed { decimals: u32::from(knot_decimals) },
+        Some(NurbsForm::Pieces { finer }) => fit::Knots::Pieces { finer },
         Some(NurbsForm::G052) | None => fit::Knots::Uniform,
     }
 }

@@ -155,7 +155,14 @@ impl Emitter<'_> {
                     };
                     self.arc(arc, from, feed);
                 }
-                Primitive::Nurbs { order, points, knots } => self.curve(*order, points, knots, from, feed),
+                Primitive::Nurbs { points, pieces: Some(finer), .. } => {
+                    let pieces = super::pieces::of_fitted(points, from, *finer);
+                    pieces.into_iter().for_each(|piece| self.curve(piece, feed));
+                }
+                Primitive::Nurbs { order, points, knots, pieces: None } => {
+                    let points = points.iter().map(|&([x, y], w)| (Position { x, y, ..from }, w)).collect();
+                    self.curve(Nurbs { order: *order, points, knots: knots.clone(), finer: 0 }, feed);
+                }
             }
             self.arrive(to);
             from = to;
@@ -189,18 +196,14 @@ impl Emitter<'_> {
         }
     }
 
-    fn curve(
-        &mut self,
-        order: u8,
-        points: &[([i64; 2], f64)],
-        knots: &[f64],
-        from: Position,
-        feed: FeedWord,
-    ) {
+    fn curve(&mut self, nurbs: Nurbs, feed: FeedWord) {
         let curve = u32::try_from(self.nurbs.len()).unwrap_or(u32::MAX);
-        points.iter().for_each(|(p, _)| self.check_plane(p.map(|v| v as f64)));
-        let points = points.iter().map(|&([x, y], w)| (Position { x, y, ..from }, w)).collect();
-        self.nurbs.push(Nurbs { order, points, knots: knots.to_vec() });
+        nurbs.places().for_each(|p| self.check_plane([p.x as f64, p.y as f64]));
+        if !super::pieces::fits(&nurbs, self.capabilities.ranges.coefficient) {
+            let message = "the coefficients of a curve have more digits than their words take";
+            self.complain(&codes::lowering::TOO_LARGE, message.into());
+        }
+        self.nurbs.push(nurbs);
         self.push(Motion::Nurbs { curve, feed });
     }
 

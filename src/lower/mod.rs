@@ -22,6 +22,7 @@ pub mod fit;
 mod lead;
 mod pass;
 mod path;
+mod pieces;
 mod rotary;
 mod spline;
 pub mod stream;

@@ -7,17 +7,16 @@ use crate::geom::Vec2;
 pub(super) fn end(primitive: &Primitive) -> Option<[i64; 2]> {
     match primitive {
         Primitive::Line { to } | Primitive::Arc { to, .. } | Primitive::Spiral { to } => Some(*to),
-        Primitive::Nurbs { points, .. } => points.last().map(|(p, _)| *p),
+        Primitive::Nurbs { points, pieces, .. } => {
+            let fine = (0..pieces.unwrap_or(0)).fold(1, |factor: i64, _| factor.saturating_mul(10));
+            points.last().map(|(p, _)| p.map(|v| v / fine))
+        }
     }
 }
 
-/// NC blocks of a chain: one a primitive, one a control point of a NURBS curve.
+/// NC blocks of a chain: one a primitive, one a control point or a piece of a NURBS curve.
 pub(super) fn blocks(fit: &Fit) -> usize {
-    let count = |primitive: &Primitive| match primitive {
-        Primitive::Nurbs { points, .. } => points.len(),
-        Primitive::Line { .. } | Primitive::Arc { .. } | Primitive::Spiral { .. } => 1,
-    };
-    fit.primitives.iter().map(count).sum()
+    fit.primitives.iter().map(super::pieces::blocks).sum()
 }
 
 /// Start of the chain's last primitive.

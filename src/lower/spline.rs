@@ -5,6 +5,7 @@
 //! else its Bézier segments one by one: a clamped curve of four points has no inner knots, so nothing is left to the control.
 
 use super::emit::Emitter;
+use super::pieces;
 use crate::cl::spline::{ORDER, Spline, segments};
 use crate::diag::Diagnostic;
 use crate::diag::codes;
@@ -80,6 +81,7 @@ impl Emitter<'_> {
         let whole = match form {
             NurbsForm::G062 { knot_decimals } => printed(spline.knots(), length(spline), knot_decimals),
             NurbsForm::G052 => equidistant(spline.knots()),
+            NurbsForm::Pieces { finer } => return self.pieces(spline, points, finer),
         };
         if let Some(knots) = whole {
             let curve = nurbs(points, knots);
@@ -107,9 +109,40 @@ impl Emitter<'_> {
         Ok(curves)
     }
 
+    /// One piece for each Bézier segment, or more where its coefficients would be too large for their words.
+    fn pieces(&mut self, spline: &Spline, points: &[Position], finer: u8) -> Result<Vec<Nurbs>, Reason> {
+        let limit = self.for_curve(spline);
+        let mut curves = Vec::new();
+        let mut from = points.first().copied().unwrap_or_default();
+        // The next part lies on top.
+        let mut parts: Vec<([Point3; ORDER], u32)> = spline.segments().map(|s| (s, 0)).collect();
+        parts.reverse();
+        while let Some((segment, depth)) = parts.pop() {
+            let to = self.grid_point(segment[ORDER - 1]);
+            let ends = [from, to].map(|p| [p.x, p.y, p.z]);
+            let step = self.capabilities.grid.linear_step();
+            let points = pieces::rounded(&segment, ends, step, finer).ok_or(Reason::Rounding)?;
+            let curve = pieces::nurbs(points, to.r, finer);
+            if !pieces::fits(&curve, self.capabilities.ranges.coefficient) {
+                if depth >= DEEPEST {
+                    return Err(Reason::Rounding);
+                }
+                let [left, right] = pieces::halves(segment);
+                parts.extend([(right, depth + 1), (left, depth + 1)]);
+                continue;
+            }
+            if self.off(core::iter::once(segment), &curve).is_none_or(|off| off > limit) {
+                return Err(Reason::Rounding);
+            }
+            from = to;
+            curves.push(curve);
+        }
+        Ok(curves)
+    }
+
     /// Upper bound of the distance of a lowered curve from Bézier segments with the same ends, mm: their control points'.
     fn off(&self, exact: impl Iterator<Item = [Point3; ORDER]>, curve: &Nurbs) -> Option<f64> {
-        let step = self.capabilities.grid.linear_step();
+        let step = self.capabilities.grid.linear_step() / curve.fine_steps() as f64;
         let place = |p: &Position| Point3::new(p.x as f64 * step, p.y as f64 * step, p.z as f64 * step);
         let points: Vec<Point3> = curve.points.iter().map(|(p, _)| place(p)).collect();
         let (exact, drawn): (Vec<_>, Vec<_>) = (exact.collect(), segments(&points, &curve.knots).collect());
@@ -127,12 +160,12 @@ impl Emitter<'_> {
     }
 
     fn draw(&mut self, curve: Nurbs, feed: FeedWord) {
-        let Some(&(to, _)) = curve.points.last() else { return };
+        let Some(to) = curve.end() else { return };
+        let places: Vec<Position> = curve.places().collect();
         // Less than a step of the grid.
-        if curve.points.iter().all(|(p, _)| *p == to) {
+        if places.iter().all(|p| *p == to) {
             return;
         }
-        let places: Vec<Position> = curve.points.iter().map(|(p, _)| *p).collect();
         self.check_place(&places);
         self.at = [to.x, to.y, to.z, to.r].map(Some);
         let index = u32::try_from(self.nurbs.len()).unwrap_or(u32::MAX);
@@ -200,7 +233,7 @@ impl Emitter<'_> {
 }
 
 fn nurbs(points: &[Position], knots: Vec<f64>) -> Nurbs {
-    Nurbs { order: ORDER as u8, points: points.iter().map(|p| (*p, 1.0)).collect(), knots }
+    Nurbs { order: ORDER as u8, points: points.iter().map(|p| (*p, 1.0)).collect(), knots, finer: 0 }
 }
 
 /// Length of the control polygon, mm.
@@ -243,12 +276,8 @@ fn flatten(b: [Point3; ORDER], tolerance: f64, depth: u32, ends: &mut Vec<Point3
         ends.push(b[3]);
         return off;
     }
-    let mid = |p: Point3, q: Point3| p + (q - p) * 0.5;
-    let (ab, bc, cd) = (mid(b[0], b[1]), mid(b[1], b[2]), mid(b[2], b[3]));
-    let (abc, bcd) = (mid(ab, bc), mid(bc, cd));
-    let middle = mid(abc, bcd);
-    let left = flatten([b[0], ab, abc, middle], tolerance, depth + 1, ends);
-    left.max(flatten([middle, bcd, cd, b[3]], tolerance, depth + 1, ends))
+    let [left, right] = pieces::halves(b).map(|half| flatten(half, tolerance, depth + 1, ends));
+    left.max(right)
 }
 
 /// Distance of a point from the segment between two others.

@@ -70,7 +70,7 @@ pub(super) fn strokes(program: &TargetProgram, detail: Detail) -> Vec<Stroke> {
 fn end_of(program: &TargetProgram, motion: &Motion) -> Option<Position> {
     match motion {
         Motion::Rapid { to, .. } | Motion::Line { to, .. } | Motion::Arc { to, .. } => Some(*to),
-        Motion::Nurbs { curve, .. } => nurbs(program, *curve).and_then(|n| n.points.last()).map(|p| p.0),
+        Motion::Nurbs { curve, .. } => nurbs(program, *curve).and_then(Nurbs::end),
     }
 }
 
@@ -165,11 +165,14 @@ fn spline(program: &TargetProgram, n: &Nurbs, detail: Detail) -> Vec<Point2> {
     const PER_SPAN: f64 = 12.0;
     let steps = detail.steps(PER_SPAN);
     let degree = usize::from(n.order).saturating_sub(1);
+    let grid = &program.capabilities.grid;
+    let step = grid.linear_step() / n.fine_steps() as f64;
     let control: Vec<[f64; 3]> = n
         .points
         .iter()
         .map(|&(p, w)| {
-            let q = in_part(program, p);
+            let (x, y) = (p.x as f64 * step, p.y as f64 * step);
+            let q = turned(program, x, y, p.r as f64 * grid.rotary_step());
             [q.x * w, q.y * w, w]
         })
         .collect();

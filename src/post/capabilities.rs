@@ -57,9 +57,10 @@ impl Dialect {
             nurbs: match spec.nurbs.knots.as_str() {
                 "printed" => Some(NurbsForm::G062 { knot_decimals: spec.nurbs.knot_decimals }),
                 "uniform" => Some(NurbsForm::G052),
+                "pieces" => Some(NurbsForm::Pieces { finer: self.finer(unit) }),
                 _ => None,
             },
-            nurbs_in_space: spec.nurbs.point.iter().any(|item| item == "z"),
+            nurbs_in_space: spec.nurbs.point.iter().any(|item| item == "z" || item.ends_with("-z")),
             rotary,
             feed_per_revolution: spec.feed.per_revolution,
             inverse_time: spec.feed.inverse_time,
@@ -105,7 +106,15 @@ impl Dialect {
             feed_per_minute: least(&["feed"]),
             feed_per_revolution: least(&["feed-per-revolution"]),
             inverse_time: least(&["feed-inverse-time"]),
+            coefficient: spec.coefficients().map(|c| spec.range(c.name, unit)).min().unwrap_or(i64::MAX),
         }
+    }
+
+    /// Decimals of coefficients of cubic pieces, beyond those of linear words.
+    fn finer(&self, unit: LengthUnit) -> u8 {
+        let spec = &self.spec;
+        let most = spec.coefficients().map(|c| spec.decimals(c.name, unit)).max();
+        most.unwrap_or(0).saturating_sub(spec.decimals("x", unit))
     }
 
     /// Planes of arcs; those that are spelled in a way of their own are no helices.

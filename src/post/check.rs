@@ -77,6 +77,7 @@ pub(super) fn in_a_file(dialect: &Dialect, path: &str) -> bool {
 /// Every pattern with its place in the file and what it is for.
 pub(super) fn patterns(dialect: &Dialect) -> Vec<(&'static str, Place, &[String])> {
     let spec = &dialect.spec;
+    let pieces = spec.nurbs.knots == "pieces";
     vec![
         ("patterns.rapid", Place::Rapid, &spec.patterns.rapid),
         ("patterns.line", Place::Line, &spec.patterns.line),
@@ -86,7 +87,7 @@ pub(super) fn patterns(dialect: &Dialect) -> Vec<(&'static str, Place, &[String]
         ("patterns.helix", Place::Arc, &spec.patterns.helix),
         ("patterns.hole", Place::Hole, &spec.patterns.hole),
         ("nurbs.begin", Place::Nurbs, &spec.nurbs.begin),
-        ("nurbs.point", Place::Nurbs, &spec.nurbs.point),
+        ("nurbs.point", if pieces { Place::Piece } else { Place::Nurbs }, &spec.nurbs.point),
         ("nurbs.rest", Place::Nurbs, &spec.nurbs.rest),
         ("nurbs.end", Place::Nurbs, &spec.nurbs.end),
         ("nurbs.between", Place::Between, &spec.nurbs.between),
@@ -112,17 +113,20 @@ fn check_patterns(dialect: &Dialect, errors: &mut Vec<Diagnostic>) {
         check_collision(dialect, items, path, errors);
     }
     check_arc(dialect, errors);
+    super::check_curves::check(dialect, errors);
 }
 
 /// Items that a pattern cannot do without.
 fn needed(dialect: &Dialect, path: &str) -> &'static [&'static str] {
     let spec = &dialect.spec;
-    let curves = spec.nurbs.knots != "none";
+    let pieces = spec.nurbs.knots == "pieces";
+    let curves = spec.nurbs.knots != "none" && !pieces;
     match path {
         "patterns.rapid" | "patterns.line" => &["x", "y", "z"],
         "patterns.hole" if spec.cycles.values().any(|c| c.enabled) => &["x", "y"],
         "nurbs.point" if curves => &["x", "y"],
         "nurbs.begin" if curves => &["feed"],
+        "nurbs.point" if pieces => &["feed"],
         "spindle.on" => &["spindle"],
         "dwell.block" => &["dwell"],
         "path-control.tolerance" if !spec.path_control.tolerance.is_empty() => &["path-tolerance"],

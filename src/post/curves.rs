@@ -1,12 +1,12 @@
 //! NURBS curves, from their patterns.
 
 use super::events::Events;
-use super::pattern::{Item, Named, Slot};
+use super::pattern::{Coefficient, Item, Named, Slot};
 use super::table::{WordFormat, word};
 use super::writer::split_feed;
 use crate::diag::codes;
 use crate::target::number;
-use crate::target::{FeedWord, Nurbs, Position};
+use crate::target::{FeedWord, Nurbs, NurbsForm, Position};
 
 /// Words of NURBS blocks.
 struct Words {
@@ -27,9 +27,17 @@ struct CurveBlock {
 }
 
 impl Events<'_> {
-    /// A NURBS curve: its first block, one for every further control point, and those of the knots left.
+    /// A curve, in the form that the control takes.
     pub fn nurbs(&mut self, curve: u32, feed: FeedWord) {
         let Some(nurbs) = self.program.nurbs.get(curve as usize) else { return };
+        match self.program.capabilities.nurbs {
+            Some(NurbsForm::Pieces { .. }) => self.piece(nurbs, feed),
+            _ => self.whole_curve(nurbs, feed),
+        }
+    }
+
+    /// A NURBS curve: its first block, one for every further control point, and those of the knots left.
+    fn whole_curve(&mut self, nurbs: &Nurbs, feed: FeedWord) {
         let spec = &self.writer.dialect.spec.nurbs;
         let [begin, point, rest, end] =
             [&spec.begin, &spec.point, &spec.rest, &spec.end].map(|pattern| Item::all(pattern));
@@ -58,6 +66,49 @@ impl Events<'_> {
             self.curve_block(&end, &words, rest_of(nurbs, feed));
         }
         self.curve_arrive(nurbs);
+    }
+
+    /// One cubic piece: where it ends and its coefficients, which are sums of its control points.
+    fn piece(&mut self, nurbs: &Nurbs, feed: FeedWord) {
+        let Some(end) = nurbs.end() else { return };
+        let items = Item::all(&self.writer.dialect.spec.nurbs.point);
+        self.home_plane();
+        self.curve_feed_mode(feed);
+        self.writer.begin_line(true);
+        for item in &items {
+            match item {
+                Item::Text(text) => self.writer.text(text),
+                Item::Word(Slot::Feed) => self.curve_feed(feed),
+                Item::Word(slot) => self.curve_axis(*slot, Some((end, 1.0))),
+                Item::Coefficient(coefficient) => self.coefficient(*coefficient, nurbs),
+                Item::NewLine => {
+                    self.writer.end_line();
+                    self.writer.begin_line(true);
+                }
+                // Other items do not pass the check of the dialect.
+                _ => {}
+            }
+        }
+        self.writer.end_line();
+        self.curve_arrive(nurbs);
+    }
+
+    fn coefficient(&mut self, coefficient: Coefficient, nurbs: &Nurbs) {
+        let along = |p: &Position| match coefficient.axis {
+            0 => p.x,
+            1 => p.y,
+            _ => p.z,
+        };
+        let terms = coefficient.shares.iter().zip(&nurbs.points);
+        // Lowering has bounded the sum.
+        let value = terms.map(|(share, (p, _))| share.saturating_mul(along(p))).fold(0, i64::saturating_add);
+        let format = word(&self.writer.dialect.spec, coefficient.name, false, self.unit());
+        // A comma belongs to the word before it.
+        if !format.prefix.starts_with(b",") {
+            self.writer.separate();
+        }
+        number::push_word(&mut self.writer.out, &format.prefix, value, &format.style);
+        self.writer.out.extend_from_slice(&format.suffix);
     }
 
     fn nurbs_words(&self) -> Words {
@@ -138,7 +189,7 @@ impl Events<'_> {
     fn curve_arrive(&mut self, nurbs: &Nurbs) {
         self.writer.state.motion = None;
         self.writer.state.curve = true;
-        if let Some((end, _)) = nurbs.points.last() {
+        if let Some(end) = nurbs.end() {
             let (position, axes) = (&mut self.writer.position, &mut self.writer.state.axes);
             (position.x, position.y) = (end.x, end.y);
             (axes[0], axes[1]) = (Some(end.x), Some(end.y));

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::pattern::Coefficient;
 pub use super::spec::{ByUnit, Cycle, DwellUnit, FullCircleWords, NumberingMode, Spec, Word};
 use super::tree::Table;
 use crate::target::number::Style;
@@ -83,8 +84,14 @@ impl Spec {
     #[must_use]
     pub fn decimals(&self, word: &str, unit: LengthUnit) -> u8 {
         let own = self.words.get(word).and_then(|w| w.decimals);
-        let shared = LINEAR_WORDS.contains(&word).then_some(self.numbers.linear_decimals);
+        let linear = LINEAR_WORDS.contains(&word) || Coefficient::by_name(word).is_some();
+        let shared = linear.then_some(self.numbers.linear_decimals);
         own.or(shared).map_or(0, |d| d.of(unit))
+    }
+    /// The coefficients that blocks of cubic pieces say; none where curves have another form.
+    pub fn coefficients(&self) -> impl Iterator<Item = Coefficient> {
+        let pieces = self.nurbs.knots == "pieces";
+        self.nurbs.point.iter().filter(move |_| pieces).filter_map(|item| Coefficient::by_name(item))
     }
     /// Largest printed magnitude of a word, in its steps.
     #[must_use]
@@ -107,6 +114,10 @@ impl Spec {
             trailing_zeros: word.trailing_zeros.unwrap_or(self.numbers.trailing_zeros),
             bare_fraction: word.bare_fraction.unwrap_or(self.numbers.bare_fraction),
             plus: word.plus.unwrap_or(self.numbers.plus && decimals > 0),
+            exponent_from: word
+                .exponent_from
+                .and_then(|from| crate::target::number::steps(from, decimals))
+                .map_or(0, i64::unsigned_abs),
         }
     }
 }

@@ -10,12 +10,15 @@
 //! - User text leaves through [`comment`] and cannot get out of its comment; `INSERT` is verbatim, one line.
 
 mod check;
+mod check_curves;
 pub mod comment;
 mod context;
 mod curves;
 mod cycles;
 pub mod dialect;
 mod events;
+#[cfg(test)]
+pub(crate) mod examples;
 mod inspect;
 mod json_schema;
 mod lint;

@@ -146,7 +146,7 @@ impl Writer<'_> {
                 Item::CycleWords => self.cycle_text(1),
                 Item::Named(_) => self.turning_axis(block),
                 // No pattern of motion holds it.
-                Item::Code => {}
+                Item::Code | Item::Coefficient(_) => {}
             }
         }
         // Text in the place of a motion code leaves another one in force.

@@ -111,6 +111,48 @@ impl Named {
     }
 }
 
+/// A number of a cubic piece: a share of each of its four control points, along an axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Coefficient {
+    /// Name in post files.
+    pub name: &'static str,
+    /// How many times each control point counts.
+    pub shares: [i64; 4],
+    /// 0 X, 1 Y, 2 Z.
+    pub axis: usize,
+}
+
+const fn along(names: [&'static str; 3], shares: [i64; 4]) -> [Coefficient; 3] {
+    let [x, y, z] = names;
+    [
+        Coefficient { name: x, shares, axis: 0 },
+        Coefficient { name: y, shares, axis: 1 },
+        Coefficient { name: z, shares, axis: 2 },
+    ]
+}
+
+/// All numbers that pieces may be told by: the end, the ways from the ends to the inner control points, the coefficients
+/// of a parameter that runs from 0 to 1, and those of one that runs from 1 to 0.
+const COEFFICIENTS: [[Coefficient; 3]; 9] = [
+    along(["end-x", "end-y", "end-z"], [0, 0, 0, 1]),
+    along(["leave-x", "leave-y", "leave-z"], [-1, 1, 0, 0]),
+    along(["arrive-x", "arrive-y", "arrive-z"], [0, 0, 1, -1]),
+    along(["a1-x", "a1-y", "a1-z"], [-3, 3, 0, 0]),
+    along(["a2-x", "a2-y", "a2-z"], [3, -6, 3, 0]),
+    along(["a3-x", "a3-y", "a3-z"], [-1, 3, -3, 1]),
+    along(["k1-x", "k1-y", "k1-z"], [0, 0, 3, -3]),
+    along(["k2-x", "k2-y", "k2-z"], [0, 3, -6, 3]),
+    along(["k3-x", "k3-y", "k3-z"], [1, -3, 3, -1]),
+];
+
+impl Coefficient {
+    /// The one of this name.
+    #[must_use]
+    pub fn by_name(name: &str) -> Option<Coefficient> {
+        COEFFICIENTS.iter().flatten().find(|c| c.name == name).copied()
+    }
+}
+
 /// One item of a pattern.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Item {
@@ -134,9 +176,23 @@ pub enum Item {
     Word(Slot),
     /// A number of another block.
     Named(Named),
+    /// A number of a cubic piece.
+    Coefficient(Coefficient),
     /// Text as it is.
     Text(Box<[u8]>),
 }
+
+/// Items of a cubic piece.
+const PIECE: [&str; 4 + 3 * COEFFICIENTS.len()] = {
+    let mut names = ["feed"; 4 + 3 * COEFFICIENTS.len()];
+    (names[0], names[1], names[2]) = ("x", "y", "z");
+    let mut i = 0;
+    while i < 3 * COEFFICIENTS.len() {
+        names[4 + i] = COEFFICIENTS[i / 3][i % 3].name;
+        i += 1;
+    }
+    names
+};
 
 /// What a pattern is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -147,6 +203,7 @@ pub enum Place {
     Arc,
     Hole,
     Nurbs,
+    Piece,
     Between,
     Spindle,
     Dwell,
@@ -184,6 +241,7 @@ impl Place {
             ],
             Place::Hole => &["cycle", "motion", "x", "y", "z", "cycle-words"],
             Place::Nurbs => &["x", "y", "z", "order", "knot", "weight", "feed"],
+            Place::Piece => &PIECE,
             Place::Between => &[],
             Place::Spindle => &["spindle", "code"],
             Place::Dwell => &["dwell"],
@@ -218,6 +276,7 @@ impl Item {
     fn word(text: &str) -> Option<Item> {
         let slot = Slot::ALL.into_iter().find(|s| s.name() == text).map(Item::Word);
         slot.or_else(|| Named::ALL.into_iter().find(|n| n.name() == text).map(Item::Named))
+            .or_else(|| Coefficient::by_name(text).map(Item::Coefficient))
     }
 
     /// Items that were checked when the dialect was loaded.
@@ -232,6 +291,7 @@ impl Item {
         match self {
             Item::Word(slot) => Some(slot.name()),
             Item::Named(named) => Some(named.name()),
+            Item::Coefficient(coefficient) => Some(coefficient.name),
             _ => None,
         }
     }

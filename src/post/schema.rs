@@ -170,6 +170,11 @@ const WORD: &[Key] = &[
     key("bare-fraction", Shape::Flag, "as in `numbers`"),
     key("plus", Shape::Flag, "as in `numbers`"),
     key("modal", Shape::Flag, "left out when its printed number has not changed"),
+    key(
+        "exponent-from",
+        Shape::Number(0.0, 1e12),
+        "from this magnitude on, in words of curves, the number has one digit before the point and an exponent: `1.25E+2`",
+    ),
 ];
 const MODAL: &[Key] = &[
     key("motion", Shape::Flag, "motion codes"),
@@ -352,14 +357,14 @@ const PATH_CONTROL: &[Key] = &[
 const NURBS: &[Key] = &[
     key(
         "knots",
-        Shape::Choice(&["none", "printed", "uniform"]),
-        "no curves; knots are printed; or they are 0, 0, 0, 0, 1, 2, … and not printed",
+        Shape::Choice(&["none", "printed", "uniform", "pieces"]),
+        "no curves; knots are printed; they are 0, 0, 0, 0, 1, 2, … and not printed; or there are none: cubic pieces, one a block",
     ),
     key("begin", Shape::TextList, "first block, with the first control point, where the curve starts"),
     key(
         "point",
         Shape::TextList,
-        "block of every further control point; with `z`, which is printed where the height changes, curves may climb",
+        "block of every further control point; with `z`, which is printed where the height changes, curves may climb. Of `pieces`: the block of a piece, with its end and its coefficients",
     ),
     key("rest", Shape::TextList, "block of every knot after those of the points"),
     key("end", Shape::TextList, "after the curve"),

@@ -165,6 +165,8 @@ pub struct Word {
     pub plus: Option<bool>,
     #[serde(default)]
     pub modal: Option<bool>,
+    #[serde(default)]
+    pub exponent_from: Option<f64>,
 }
 
 #[derive(Debug, Clone, Copy, Deserialize)]

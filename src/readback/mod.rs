@@ -15,6 +15,7 @@ mod curve;
 mod klartext;
 mod number;
 mod out;
+mod polynomial;
 mod trace;
 mod word;
 

@@ -86,6 +86,23 @@ pub enum NurbsForm {
     },
     /// LinuxCNC `G5.2 … G5.3`; its knots are 0, 0, 0, 0, 1, 2, … and not printed.
     G052,
+    /// Cubic pieces, one a block, by the coefficients of their polynomials or by their inner control points
+    /// (Heidenhain `SPL`, SINUMERIK `POLY`, `G5`).
+    Pieces {
+        /// Decimals of coefficients beyond those of linear words.
+        finer: u8,
+    },
+}
+
+impl NurbsForm {
+    /// [`Nurbs::finer`] of curves of this form.
+    #[must_use]
+    pub fn finer(self) -> u8 {
+        match self {
+            NurbsForm::Pieces { finer } => finer,
+            NurbsForm::G062 { .. } | NurbsForm::G052 => 0,
+        }
+    }
 }
 
 /// What a controller can do, as far as lowering must know. Read from its dialect file.
@@ -189,6 +206,8 @@ pub struct Ranges {
     pub feed_per_revolution: i64,
     /// Inverse time feed.
     pub inverse_time: i64,
+    /// Coefficients of cubic pieces.
+    pub coefficient: i64,
 }
 
 /// A rotary table axis.
@@ -390,18 +409,41 @@ pub mod axes {
     pub const ROTARY: u8 = 8;
 }
 
-/// A NURBS curve in grid steps; its first control point is the position before it.
+/// A NURBS curve; its first control point is the position before it. Where the control takes [`NurbsForm::Pieces`],
+/// it is one cubic Bézier piece.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Nurbs {
     /// Order (degree + 1).
     pub order: u8,
-    /// Control points with their weights, the first included.
+    /// Control points with their weights, the first included; X, Y and Z in steps of the grid divided by 10^`finer`.
     pub points: Vec<(Position, f64)>,
     /// Knots, points + order of them.
     pub knots: Vec<f64>,
+    /// Decimals that control points have beyond the grid's. The first and the last point are on the grid all the same.
+    pub finer: u8,
 }
 
 impl Nurbs {
+    /// Steps of control points in one step of the grid.
+    #[must_use]
+    pub fn fine_steps(&self) -> i64 {
+        (0..self.finer).fold(1, |factor: i64, _| factor.saturating_mul(10))
+    }
+
+    /// Where it ends, in grid steps.
+    #[must_use]
+    pub fn end(&self) -> Option<Position> {
+        let fine = self.fine_steps();
+        self.points.last().map(|(p, _)| Position { x: p.x / fine, y: p.y / fine, z: p.z / fine, r: p.r })
+    }
+
+    /// Its control points in grid steps, rounded.
+    pub fn places(&self) -> impl Iterator<Item = Position> {
+        let fine = self.fine_steps();
+        let near = move |v: i64| v.saturating_add(v.signum() * (fine / 2)) / fine;
+        self.points.iter().map(move |(p, _)| Position { x: near(p.x), y: near(p.y), z: near(p.z), r: p.r })
+    }
+
     /// Whether the height of its control points changes.
     #[must_use]
     pub fn climbs(&self) -> bool {

@@ -1,7 +1,7 @@
 //! The one place that prints numbers of NC programs.
 //!
-//! A number is an integer count of decimal steps, so nothing is rounded here, no exponent can appear, and zero
-//! has one spelling: `-0` cannot be written.
+//! A number is an integer count of decimal steps, so nothing is rounded here, no exponent appears but where a word wants
+//! one, and zero has one spelling: `-0` cannot be written.
 
 use serde::Deserialize;
 
@@ -31,6 +31,8 @@ pub struct Style {
     pub bare_fraction: bool,
     /// `+` before a number that is not negative.
     pub plus: bool,
+    /// From this many steps on a number has one digit before the point and an exponent, `1.25E+2`; 0: none has.
+    pub exponent_from: u64,
 }
 
 /// Digits of the largest number, with sign and point, and room for what stands before it.
@@ -46,9 +48,12 @@ pub fn push(out: &mut Vec<u8>, steps: i64, style: &Style) {
 /// Appends `lead` and the number in one go: a word.
 #[inline]
 pub fn push_word(out: &mut Vec<u8>, lead: &[u8], steps: i64, style: &Style) {
+    let mut rest = steps.unsigned_abs();
+    if style.exponent_from != 0 && rest >= style.exponent_from {
+        return push_scaled(out, lead, steps, style);
+    }
     let mut buffer = [0u8; LONGEST];
     let mut at = LONGEST;
-    let mut rest = steps.unsigned_abs();
     let decimals = style.decimals.min(18);
     if decimals > 0 {
         (rest, at) = push_fraction(&mut buffer, at, rest, decimals, style);
@@ -69,6 +74,18 @@ pub fn push_word(out: &mut Vec<u8>, lead: &[u8], steps: i64, style: &Style) {
         out.extend_from_slice(lead);
     }
     out.extend_from_slice(&buffer[at..]);
+}
+
+/// Appends `lead` and the number with one digit before the point, and the power of ten that this takes.
+#[cold]
+fn push_scaled(out: &mut Vec<u8>, lead: &[u8], steps: i64, style: &Style) {
+    // An integer of 64 bits has 20 digits at most.
+    let places = u8::try_from(steps.unsigned_abs().checked_ilog10().unwrap_or(0)).unwrap_or(0).min(18);
+    push_word(out, lead, steps, &Style { decimals: places, exponent_from: 0, ..*style });
+    let power = i64::from(places) - i64::from(style.decimals);
+    if power != 0 {
+        push_word(out, b"E", power, &Style { plus: true, ..Style::default() });
+    }
 }
 
 /// Writes the fraction's digits and the point in front of `at`; gives the whole part and the new front.
@@ -145,8 +162,14 @@ mod tests {
         push(&mut out, steps, &style);
         String::from_utf8(out).unwrap()
     }
-    const MM: Style =
-        Style { decimals: 3, point: Point::Needed, trailing_zeros: false, bare_fraction: false, plus: false };
+    const MM: Style = Style {
+        decimals: 3,
+        point: Point::Needed,
+        trailing_zeros: false,
+        bare_fraction: false,
+        plus: false,
+        exponent_from: 0,
+    };
 
     #[test]
     fn fractions_are_as_short_as_they_can_be() {
@@ -176,6 +199,14 @@ mod tests {
         assert_eq!(text(i64::MIN, MM), "-9223372036854775.808");
     }
     #[test]
+    fn large_numbers_have_an_exponent_where_their_word_wants_one() {
+        let style = Style { exponent_from: 10_000, plus: true, ..MM };
+        assert_eq!(text(9_999, style), "+9.999");
+        assert_eq!(text(-10_000, style), "-1E+1");
+        assert_eq!(text(123_456_789, style), "+1.23456789E+5");
+        assert_eq!(text(i64::MIN, style), "-9.223372036854775808E+15");
+    }
+    #[test]
     fn steps_round_halves_away_from_zero_and_refuse_what_is_too_large() {
         assert_eq!(steps(0.0004, 3), Some(0));
         assert_eq!(steps(-0.0005, 3), Some(-1));
@@ -186,7 +217,7 @@ mod tests {
         #[test]
         fn text_parses_back_to_the_same_integer(value: i64, decimals in 0u8..=6, point in 0..3, trailing: bool, bare: bool, plus: bool) {
             let point = [Point::Needed, Point::Always, Point::Digit][point as usize];
-            let s = text(value, Style { decimals, point, trailing_zeros: trailing, bare_fraction: bare, plus });
+            let s = text(value, Style { decimals, point, trailing_zeros: trailing, bare_fraction: bare, plus, exponent_from: 0 });
             let digits: String = s.chars().filter(char::is_ascii_digit).collect();
             let fraction = s.split_once('.').map_or(0, |(_, f)| f.len());
             let back: i128 = digits.parse::<i128>().unwrap() * if s.starts_with('-') { -1 } else { 1 };

@@ -187,7 +187,7 @@ fn feed_text(grid: &Grid, feed: FeedWord) -> String {
 
 fn nurbs_text(grid: &Grid, nurbs: &Nurbs) -> String {
     let mut text = format!(" order {}", nurbs.order);
-    let decimals = grid.linear_decimals;
+    let decimals = grid.linear_decimals + nurbs.finer;
     for (p, w) in &nurbs.points {
         let _ = write!(text, " ({} {}", plain(p.x, decimals), plain(p.y, decimals));
         if nurbs.climbs() {

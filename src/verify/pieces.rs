@@ -8,7 +8,7 @@ use super::follow::{self, Break, Extreme, Followed, Run, Slack};
 use super::guard::Rails;
 use super::{ACCURACY, Case, Placed};
 use crate::diag::codes::verification as codes;
-use crate::target::Piece;
+use crate::target::{NurbsForm, Piece};
 
 /// What was measured of a piece.
 #[derive(Debug, Clone)]
@@ -71,7 +71,7 @@ fn one(
     let followed = follow::follow(rail, &moves, slack);
     let mut findings = heights(case, piece, run);
     findings.extend(followed.breaks.iter().map(|b| broken(*b, case, piece, run)));
-    let proof = proof(piece, run, rail.length, &followed);
+    let proof = proof(case, piece, run, rail.length, &followed);
     if let Some(proof) = &proof {
         let allowed = run.iter().map(|p| p.cut.path_tolerance).fold(0.0, f64::max);
         findings.extend(band_findings(case, piece, run, proof, allowed));
@@ -151,7 +151,13 @@ fn broken(found: Break, case: &Case<'_>, piece: &Piece, run: &[Placed<'_>]) -> F
     Finding::new(&codes::NOT_FOLLOWED, line, block, text)
 }
 
-fn proof(piece: &Piece, run: &[Placed<'_>], length: f64, followed: &Followed) -> Option<PieceProof> {
+fn proof(
+    case: &Case<'_>,
+    piece: &Piece,
+    run: &[Placed<'_>],
+    length: f64,
+    followed: &Followed,
+) -> Option<PieceProof> {
     let (left, right) = (followed.left?, followed.right?);
     let side = piece.part.sign();
     let (inner, outer) = if side > 0.0 { (left, right) } else { (right, left) };
@@ -159,7 +165,7 @@ fn proof(piece: &Piece, run: &[Placed<'_>], length: f64, followed: &Followed) ->
     Some(PieceProof {
         interpolation: piece.interpolation,
         z: piece.z,
-        blocks: blocks(run),
+        blocks: blocks(case, run),
         lower_bound: piece.lower_bound,
         length,
         into: deviation(inner, side),
@@ -167,15 +173,16 @@ fn proof(piece: &Piece, run: &[Placed<'_>], length: f64, followed: &Followed) ->
     })
 }
 
-/// NC blocks: moves, and for NURBS their control points after the first.
-fn blocks(run: &[Placed<'_>]) -> u32 {
+/// NC blocks: moves, and for NURBS their control points after the first, where they are not pieces.
+fn blocks(case: &Case<'_>, run: &[Placed<'_>]) -> u32 {
+    let pieces = matches!(case.target.capabilities.nurbs, Some(NurbsForm::Pieces { .. }));
     // A control that goes by an arc's angle adds a line to the arc of the same block.
     let first_of_line = |i: &usize| *i == 0 || run.get(i - 1).map(|p| p.line) != run.get(*i).map(|p| p.line);
     (0..run.len())
         .filter(first_of_line)
         .filter_map(|i| run.get(i))
         .map(|p| match &p.cut.path {
-            crate::readback::TracePath::Nurbs { points, .. } => {
+            crate::readback::TracePath::Nurbs { points, .. } if !pieces => {
                 u32::try_from(points.len()).unwrap_or(u32::MAX).saturating_sub(1)
             }
             _ => 1,

@@ -173,8 +173,8 @@ fn wrong_end(
         Motion::Rapid { to, .. } => (*to, true),
         Motion::Line { to, .. } | Motion::Arc { to, .. } => (*to, false),
         Motion::Nurbs { curve, .. } => {
-            let last = case.target.nurbs.get(*curve as usize).and_then(|n| n.points.last());
-            (last.map(|(p, _)| *p)?, false)
+            let last = case.target.nurbs.get(*curve as usize).and_then(crate::target::Nurbs::end);
+            (last?, false)
         }
     };
     let wanted = in_part(case, to);

@@ -9,9 +9,9 @@ use crate::geom::curve::{CurveRef, Ends, Offset, Reversed, Spline};
 use crate::geom::{Point2, Point3, Side};
 use crate::ir::{Band, Feed, Interpolation, Machine, Origin, Rotary, Spindle, Tool};
 use crate::math::{TAU, sin_cos};
-use crate::post::{Dialect, load, write};
+use crate::post::{Dialect, examples, write};
 use crate::readback::{self, EventKind, TraceMove, TracePath};
-use crate::source::{FileId, MemoryFiles, SourceMap, Span};
+use crate::source::{FileId, Span};
 use crate::target::{BlockKind, Motion, TargetProgram};
 
 use crate::units::LengthUnit;
@@ -95,7 +95,7 @@ pub(super) struct Built {
 }
 
 fn dialect(name: &str) -> Dialect {
-    load(name, &MemoryFiles::default(), &mut SourceMap::default()).expect("a built-in post")
+    examples::any(name)
 }
 
 pub(super) fn built(post: &str, interpolation: Interpolation, band: Band, unit: LengthUnit) -> Built {
@@ -162,7 +162,7 @@ fn good_programs_are_proven() {
 
 #[test]
 fn spline_programs_are_proven() {
-    for post in ["linuxcnc", "fanuc", "sinumerik"] {
+    for post in ["linuxcnc", "fanuc", "sinumerik"].into_iter().chain(examples::names()) {
         for unit in [LengthUnit::Millimetre, LengthUnit::Inch] {
             let proven = proven(post, Interpolation::Nurbs, BAND, unit);
             assert!(proven.certificate().moves.nurbs > 0);

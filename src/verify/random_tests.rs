@@ -7,8 +7,8 @@ use crate::diag::Sink;
 use crate::geom::{Point3, Vec3};
 use crate::ir::{Coolant, Feed, Origin, Spindle, Tool};
 use crate::math::{TAU, sin_cos};
-use crate::post::{builtin_names, load, write};
-use crate::source::{FileId, MemoryFiles, SourceMap, Span};
+use crate::post::{builtin_names, examples, write};
+use crate::source::{FileId, Span};
 use crate::target::{BlockKind, Motion, TargetProgram};
 use crate::units::LengthUnit;
 
@@ -187,6 +187,11 @@ fn holes(
     up
 }
 
+/// All posts that random programs are made for.
+fn posts() -> impl Iterator<Item = &'static str> {
+    builtin_names().into_iter().chain(examples::names())
+}
+
 /// What a post makes of CL data.
 struct Written {
     target: TargetProgram,
@@ -196,7 +201,7 @@ struct Written {
 
 /// Lowers and writes; nothing when lowering refuses the program.
 fn written(post: &str, cl: &Cl) -> Option<Written> {
-    let dialect = load(post, &MemoryFiles::default(), &mut SourceMap::default()).expect("a built-in post");
+    let dialect = examples::any(post);
     let capabilities = dialect.capabilities(cl.units, None).expect("capabilities");
     let target = crate::lower::lower(cl, &capabilities, &mut Sink::default())?;
     let written = write(&dialect, &target, &cl.origins).expect("a text");
@@ -222,7 +227,7 @@ proptest! {
     #[test]
     fn what_is_written_for_any_post_reads_back_as_asked(acts in acts(), inch in any::<bool>()) {
         let cl = cl(&acts, if inch { LengthUnit::Inch } else { LengthUnit::Millimetre });
-        for post in builtin_names() {
+        for post in posts() {
             if let Some(trouble) = trouble(post, &cl) {
                 prop_assert!(false, "{}", trouble);
             }
@@ -235,7 +240,7 @@ proptest! {
 fn what_went_wrong_once_reads_back_as_asked() {
     let helix = Act::Round { axis: 2, radius: 543, start: 213, sweep: 62, rise: -1, clockwise: true };
     let cl = cl(&[helix], LengthUnit::Inch);
-    for post in builtin_names() {
+    for post in posts() {
         assert_eq!(trouble(post, &cl), None);
     }
 }
@@ -254,7 +259,7 @@ fn curves_that_turn_back_are_proven_for_every_post() {
         let origin = cl.records[0].origin;
         let kind = RecordKind::Spline(Box::new(spline));
         cl.records.insert(cl.records.len() - 1, Record { kind, origin });
-        for post in builtin_names() {
+        for post in posts() {
             assert_eq!(trouble(post, &cl), None);
         }
     }
@@ -265,11 +270,22 @@ fn damaged(text: &str, lines: core::ops::Range<usize>) -> Vec<String> {
     let mut all = Vec::new();
     for n in lines {
         let line = text.lines().nth(n).expect("a line");
-        let words = line.split(' ').filter(|w| w.starts_with(['X', 'Y', 'Z', 'K', 'R']));
-        for word in words.chain(line.split(' ').filter(|w| w.starts_with("PW="))) {
-            let digits = word.find(|c: char| c.is_ascii_digit() || c == '-').expect("a number");
-            let value: f64 = word[digits..].parse().expect("a number");
-            let other = line.replacen(word, &format!("{}{:.4}", &word[..digits], value + 0.05), 1);
+        let told = |w: &&str| w.starts_with(['X', 'Y', 'Z', 'K', 'R', 'I', 'J', 'P', 'Q', ',']);
+        // POLY has three numbers in brackets.
+        let split = line.replace(',', " ,");
+        let line = split.as_str();
+        for word in line.split(' ').filter(told).filter(|w| *w != "POLY") {
+            let name = if word.starts_with('K') && word.get(2..3).is_some_and(|c| "XYZ".contains(c)) {
+                3
+            } else {
+                0
+            };
+            let digits =
+                name + word[name..].find(|c: char| c.is_ascii_digit() || "+-".contains(c)).expect("a number");
+            let end = word.find([')', 'E']).unwrap_or(word.len());
+            let value: f64 = word[digits..end].parse().expect("a number");
+            let other = format!("{}{:+.4}{}", &word[..digits], value + 0.05, &word[end..]);
+            let other = line.replacen(word, &other, 1);
             let lines = text.lines().enumerate().map(|(i, l)| if i == n { other.as_str() } else { l });
             all.push(lines.collect::<Vec<_>>().join("\n") + "\n");
         }
@@ -282,7 +298,9 @@ fn a_curve_with_a_wrong_word_is_found() {
     let level = [[1000, 0, 0], [2000, 1500, 0], [3000, 0, 0], [4000, 0, 0], [5000, 500, 0]];
     let climbing = [[1000, 0, 100], [2000, 1500, 0], [3000, 0, -200], [4000, 0, -300], [5000, 500, -500]];
     let cases = [("linuxcnc", level), ("fanuc", level), ("sinumerik", level), ("fanuc", climbing)];
-    for (post, points) in cases.into_iter().chain([("mitsubishi", climbing), ("sinumerik", climbing)]) {
+    let climb = ["mitsubishi", "sinumerik", "itnc530", "sinumerik_poly"].map(|post| (post, climbing));
+    let flat = ["itnc530", "sinumerik_poly", "linuxcnc_g5"].map(|post| (post, level));
+    for (post, points) in cases.into_iter().chain(climb).chain(flat) {
         for inner in [vec![25; 9], vec![3, 7, 5, 2, 9]] {
             let act = Act::Curve { points: points.to_vec(), inner, level: points == level };
             let cl = cl(&[Act::Linear([0, 0, 500]), act], LengthUnit::Millimetre);

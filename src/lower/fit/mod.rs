@@ -95,10 +95,12 @@ pub enum Primitive {
     Nurbs {
         /// Degree + 1.
         order: u8,
-        /// Control points in linear steps with their weights.
+        /// Control points in linear steps with their weights; in finer ones for `pieces`.
         points: Vec<([i64; 2], f64)>,
         /// Knots, points + order of them.
         knots: Vec<f64>,
+        /// Bézier pieces, with inner knots threefold: the decimals that their control points have beyond the grid's.
+        pieces: Option<u8>,
     },
 }
 

@@ -2,15 +2,14 @@
 
 use crate::arena::{Arena, Handle};
 use crate::ir::{Machine, Origin, Rotary, Tool};
-use crate::post::{Dialect, Written, load, write};
-use crate::source::{FileId, MemoryFiles, SourceMap, Span};
+use crate::post::{Dialect, Written, write};
+use crate::source::{FileId, Span};
 use crate::target::{Block, BlockKind, FeedWord, Motion, Nurbs, Position, TargetProgram, axes};
 use crate::units::LengthUnit;
 
-/// A built-in dialect.
+/// A built-in dialect, or an example.
 pub fn builtin(name: &str) -> Dialect {
-    let mut sources = SourceMap::default();
-    load(name, &MemoryFiles::default(), &mut sources).unwrap_or_else(|errors| panic!("{name}: {errors:#?}"))
+    crate::post::examples::any(name)
 }
 
 /// A program under construction; positions are in steps.
@@ -102,7 +101,7 @@ impl Sheet {
         self
     }
     pub fn nurbs(mut self, nurbs: Nurbs) -> Sheet {
-        self.at = nurbs.points.last().map_or(self.at, |p| p.0);
+        self.at = nurbs.end().unwrap_or(self.at);
         let curve = u32::try_from(self.program.nurbs.len()).unwrap();
         self.program.nurbs.push(nurbs);
         let feed = self.minute();

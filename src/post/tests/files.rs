@@ -171,3 +171,43 @@ fn every_key_of_the_schema_is_understood_and_every_built_in_post_gives_it() {
         assert!(optional.contains(&key.name) || table.contains_key(key.name), "{} is in no file", key.name);
     }
 }
+
+#[test]
+fn pieces_that_are_not_wholly_said_are_refused() {
+    let post = |nurbs: &str| {
+        format!(
+            "inherits = \"linuxcnc\"\n[words.leave-x]\nprefix = \"I\"\n[words.leave-y]\nprefix = \"J\"\n[words.arrive-x]\nprefix = \"P\"\n[words.arrive-y]\nprefix = \"Q\"\n[nurbs]\nknots = \"pieces\"\n{nurbs}"
+        )
+    };
+    let whole =
+        "point = [\"=G5\", \"x\", \"y\", \"leave-x\", \"leave-y\", \"arrive-x\", \"arrive-y\", \"feed\"]\n";
+    assert_eq!(complaints(&post(&format!("begin = []\nend = []\n{whole}"))), [""; 0]);
+    let framed = complaints(&post(whole));
+    assert_eq!(framed.len(), 2, "{framed:#?}");
+    assert!(framed.iter().all(|c| c.starts_with("E0708") && c.contains("it must be []")), "{framed:#?}");
+    for (items, words) in [
+        ("\"x\", \"y\", \"leave-x\", \"leave-y\", \"arrive-x\", \"feed\"", "whole piece along Y"),
+        ("\"x\", \"leave-x\", \"leave-y\", \"arrive-x\", \"arrive-y\", \"feed\"", "whole piece along Y"),
+        ("\"x\", \"y\", \"z\", \"leave-x\", \"leave-y\", \"arrive-x\", \"arrive-y\", \"feed\"", "along Z"),
+        ("\"x\", \"y\", \"leave-x\", \"leave-y\", \"arrive-x\", \"arrive-y\"", "has no `feed`"),
+        (
+            "\"x\", \"y\", \"leave-x\", \"leave-y\", \"arrive-x\", \"arrive-y\", \"feed\", \"weight\"",
+            "`weight` is no item",
+        ),
+        (
+            "\"x\", \"y\", \"leave-x\", \"leave-y\", \"arrive-x\", \"arrive-y\", \"feed\", \"a2-x\"",
+            "`a2-x` is not in [words]",
+        ),
+    ] {
+        let got = complaints(&post(&format!("begin = []\nend = []\npoint = [\"=G5\", {items}]\n")));
+        assert!(got.iter().any(|c| c.starts_with("E0708") && c.contains(words)), "{items}: {got:#?}");
+    }
+    let coarse = format!("begin = []\nend = []\n{whole}[words.arrive-y]\ndecimals = 3\n")
+        .replace("prefix = \"Q\"", "");
+    let got = complaints(
+        &post(&coarse)
+            .replace("[words.arrive-y]\nprefix = \"Q\"\n", "")
+            .replace("decimals = 3", "decimals = 3\nprefix = \"Q\""),
+    );
+    assert!(got.iter().any(|c| c.contains("`arrive-y` has 3 decimals")), "{got:#?}");
+}

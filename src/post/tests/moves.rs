@@ -146,6 +146,7 @@ fn nurbs_are_spelled_as_the_control_wants() {
         order: 4,
         points: vec![(p(0, 0), 1.0), (p(scale, 0), 1.0), (p(scale, scale), 0.5), (p(0, scale), 1.0)],
         knots: vec![0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0],
+        finer: 0,
     };
     let linuxcnc = Sheet::at("linuxcnc", 0, 0).nurbs(nurbs(10_000)).line(20_000, 10_000);
     assert_eq!(linuxcnc.rest(), ["G5.2 P1 L4 F300", "X1 Y0 P1", "X1 Y1 P0.5", "X0 Y1 P1", "G5.3", "G1 X2"]);
@@ -174,14 +175,19 @@ fn nurbs_are_spelled_as_the_control_wants() {
 fn back(scale: i64) -> Nurbs {
     let p = |x: i64, y: i64| (Position { x: x * scale, y: y * scale, z: 0, r: 0 }, 1.0);
     let knots = vec![0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0];
-    Nurbs { order: 4, points: vec![p(0, 1), p(1, 1), p(1, 0), p(0, 0)], knots }
+    Nurbs { order: 4, points: vec![p(0, 1), p(1, 1), p(1, 0), p(0, 0)], knots, finer: 0 }
 }
 
 #[test]
 fn curves_that_climb_say_their_heights() {
     let p = |x: i64, z: i64| (Position { x, y: 0, z, r: 0 }, 1.0);
     let knots = vec![0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0];
-    let climb = Nurbs { order: 4, points: vec![p(0, 0), p(1_000, 0), p(2_000, 500), p(3_000, 1_000)], knots };
+    let climb = Nurbs {
+        order: 4,
+        points: vec![p(0, 0), p(1_000, 0), p(2_000, 500), p(3_000, 1_000)],
+        knots,
+        finer: 0,
+    };
     let fanuc = Sheet::at("fanuc", 0, 0).nurbs(climb.clone()).line(0, 0);
     let points = [
         "G6.2 P4 K0. X0. Y0. R1. F300.",
@@ -194,4 +200,40 @@ fn curves_that_climb_say_their_heights() {
     assert_eq!(fanuc.rest().last().map(String::as_str), Some("G1 X0."));
     let sinumerik = Sheet::at("sinumerik", 0, 0).nurbs(climb);
     assert_eq!(sinumerik.rest()[1..], ["X1 Y0 Z0 PW=1", "X2 Y0 Z0.5 PW=1", "X3 Y0 Z1 PW=1"]);
+}
+
+/// From (0, 0) to (4, 0) by (1, 2) and (3, 2.000007), inner points five decimals fine, falling by `fall`; the grid has three.
+fn piece(fall: i64, scale: i64) -> Nurbs {
+    let p = |x: i64, y: i64, z: i64| (Position { x: x * scale, y: y * scale, z, r: 0 }, 1.0);
+    let mut points = vec![p(0, 0, 0), p(1, 2, 0), p(3, 2, -fall), p(4, 0, -fall)];
+    points[2].0.y += 7 * scale / 1_000_000;
+    Nurbs { order: 4, points, knots: vec![0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0], finer: 3 }
+}
+
+#[test]
+fn pieces_say_their_end_and_their_coefficients() {
+    let poly = Sheet::at("sinumerik_poly", 0, 0).nurbs(piece(0, 1_000_000)).line(5_000, 0);
+    assert_eq!(
+        poly.rest(),
+        ["POLY PO[X]=(4,3,-2) PO[Y]=(0,-5.999979,-0.000021) PO[Z]=(0,0,0) F300", "G1 X5"]
+    );
+    let falls = Sheet::at("sinumerik_poly", 0, 0).nurbs(piece(500_000, 1_000_000)).line(5_000, 0);
+    assert_eq!(falls.rest()[0], "POLY PO[X]=(4,3,-2) PO[Y]=(0,-5.999979,-0.000021) PO[Z]=(-0.5,-1.5,1) F300");
+    let g5 = Sheet::at("linuxcnc_g5", 0, 0).nurbs(Nurbs { finer: 2, ..piece(0, 1_000_000) }).line(50_000, 0);
+    assert_eq!(g5.rest(), ["G5 X4 Y0 I1 J2 P-1 Q2.000007 F300", "G1 X5"]);
+}
+
+#[test]
+fn splines_of_heidenhain_run_back_from_their_end() {
+    let spl = Sheet::at("itnc530", 0, 0).nurbs(Nurbs { finer: 2, ..piece(50_000, 100_000) }).line(5_000, 0);
+    let lines = spl.rest();
+    let [first, x, y, z, after] = lines.as_slice() else { panic!("{lines:?}") };
+    assert!(first.ends_with("SPL X+4 Y+0 Z-0.5 ~"), "{first}");
+    assert_eq!(x, "K3X+2 K2X-3 K1X-3 ~");
+    assert_eq!(y, "K3Y+0 K2Y-6 K1Y+6 ~");
+    assert_eq!(z, "K3Z-1 K2Z+1.5 K1Z+0 F300");
+    assert!(after.ends_with("L X+5 Y+0 R0") || after.ends_with("L X+5 R0"), "{after}");
+    // A coefficient of ten and more has an exponent.
+    let far = Sheet::at("itnc530", 0, 0).nurbs(Nurbs { finer: 2, ..piece(0, 10_000_000) });
+    assert_eq!(far.rest()[1], "K3X+2E+2 K2X-3E+2 K1X-3E+2 ~");
 }

@@ -24,6 +24,8 @@ pub(super) struct Asked {
     pub m: Vec<u32>,
     /// S word.
     pub speed: Option<f64>,
+    /// `K` words of a spline.
+    pub spline: super::spline::Coefficients,
     /// Length of `MB`: the tool axis retracts, by this or to its end.
     pub back: bool,
 }
@@ -46,11 +48,16 @@ impl Reader<'_> {
             return out.fault("a block after the end of the program");
         }
         let rest = words.get(1..).unwrap_or_default();
+        let coefficient = |w: &Word| matches!(w, Word::Address(a, _) if a.starts_with('K'));
+        if name(0) != "SPL" && words.iter().any(coefficient) {
+            return out.fault("coefficients of a spline outside SPL");
+        }
         match (name(0), name(1)) {
             ("END", "PGM") => self.end(words, out),
             ("L", _) => self.with(rest, out, Self::straight),
             ("CC", _) => self.with(rest, out, Self::pole),
             ("C", _) => self.with(rest, out, Self::circle),
+            ("SPL", _) => self.with(rest, out, Self::spline),
             ("CR", _) => self.with(rest, out, Self::circle_by_radius),
             ("CP", _) => self.with(rest, out, Self::circle_by_angle),
             ("TOOL", "CALL") => self.tool_call(words.get(2..).unwrap_or_default(), out),
@@ -125,6 +132,12 @@ impl Reader<'_> {
     /// Stores an address; `false` when it was there already.
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
     fn address<S: Follow>(&self, asked: &mut Asked, address: &str, value: f64, out: &mut Out<'_, S>) -> bool {
+        if address.starts_with('K') {
+            if let Err(fault) = asked.spline.put(address, value) {
+                out.fault(fault);
+            }
+            return true;
+        }
         if value.abs() > LARGEST {
             out.fault(format!("{address}{value} is not in -{LARGEST} to {LARGEST}"));
         }

@@ -12,6 +12,7 @@ use crate::geom::Point2;
 mod blocks;
 mod cycle;
 mod motion;
+mod spline;
 mod words;
 
 #[cfg(test)]

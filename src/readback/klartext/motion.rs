@@ -17,7 +17,7 @@ const LARGEST_ANGLE: f64 = 5400.0;
 /// Sweep below which a circle is whole, radians.
 const WHOLE: f64 = 1e-9;
 /// Index of the rotary axis.
-const ROTARY: usize = 3;
+pub(super) const ROTARY: usize = 3;
 
 impl Reader<'_> {
     /// `L`.
@@ -283,7 +283,7 @@ impl Reader<'_> {
     }
 
     /// Where the axis words lead.
-    fn target<S: Follow>(&self, asked: &Asked, out: &mut Out<'_, S>) -> [f64; 4] {
+    pub(super) fn target<S: Follow>(&self, asked: &Asked, out: &mut Out<'_, S>) -> [f64; 4] {
         let mut to = self.state.position;
         let axes = to.iter_mut().zip(&asked.axes).zip(self.state.known).enumerate();
         for (axis, ((place, word), known)) in axes {
@@ -321,7 +321,7 @@ impl Reader<'_> {
         true
     }
 
-    fn arrive(&mut self, to: [f64; 4], asked: &Asked) {
+    pub(super) fn arrive(&mut self, to: [f64; 4], asked: &Asked) {
         self.state.position = to;
         for axis in 0..4 {
             self.state.known[axis] |= asked.axes[axis].is_some();

@@ -238,3 +238,49 @@ fn bad_cycles_are_refused() {
         assert!(got.iter().any(|f| f.message.contains(words)), "{to}: {got:#?}");
     }
 }
+
+fn bezier(m: &TraceMove) -> Vec<[f64; 3]> {
+    match &m.path {
+        TracePath::Nurbs { points, .. } => points.iter().map(|p| [p.x, p.y, m.z.0]).collect(),
+        TracePath::Space(curve) => curve.points.iter().map(|p| [p.x, p.y, p.z]).collect(),
+        other => panic!("not a curve: {other:?}"),
+    }
+}
+
+fn near(got: &[[f64; 3]], want: &[[f64; 3]]) -> bool {
+    got.len() == want.len() && got.iter().flatten().zip(want.iter().flatten()).all(|(a, b)| close(*a, *b))
+}
+
+#[test]
+fn a_spline_runs_from_one_to_zero() {
+    // From (10, 0) to (40, 30): x = 40 - 30 t, y = 30 - 60 t + 30 t².
+    let body = "L Z-1 F120\nSPL X+40 Y+30 Z-1 ~\nK3X+0 K2X+0 K1X-3E+1 ~\nK3Y0.0 K2Y3.000E+001 K1Y-6 E+1 ~\nK3Z+0 K2Z+0 K1Z+0 F300";
+    let moves = clean(body);
+    let want = [[10.0, 0.0, -1.0], [20.0, 0.0, -1.0], [30.0, 10.0, -1.0], [40.0, 30.0, -1.0]];
+    assert!(near(&bezier(&moves[1]), &want), "{:?}", moves[1]);
+    assert_eq!((moves[1].feed, moves[1].z), (Some(300.0), (-1.0, -1.0)));
+    // The next one goes on from its end; an axis that is not said stays, and Z climbs by 3 t² - 2 t³ back from 1.
+    let body =
+        "L Z-1 F120\nSPL X+40 Y+30 K3X+0 K2X+0 K1X-3E1 K3Y0 K2Y3E1 K1Y-6E1\nSPL Z+0 K3Z+2 K2Z-3 K1Z+0\nL X+0";
+    let moves = clean(body);
+    let want = [[40.0, 30.0, -1.0], [40.0, 30.0, -1.0], [40.0, 30.0, 0.0], [40.0, 30.0, 0.0]];
+    assert!(near(&bezier(&moves[2]), &want), "{:?}", moves[2]);
+    assert_eq!(moves[3].start().z, 0.0);
+    let inch = trace(&program("INCH", "L Z-1 F120\nSPL X+40 Y+0 K3X0 K2X0 K1X-3E1 K3Y0 K2Y0 K1Y0"));
+    assert_eq!(inch.faults, []);
+    refused(&[
+        ("L Z-1 F9\nSPL X+40 Y+30 K3X+0 K2X+0 K1X-3E1 K3Y0 K2Y3E1 K1Y-5.9E1", "the spline starts at Y1.0"),
+        ("L Z-1 F9\nSPL X+40.0011 Y+0 K3X+0 K2X+0 K1X-3E1 K3Y0 K2Y0 K1Y0", "the spline starts at X10.001100"),
+        ("L Z-1 F9\nSPL X+20 Y+0 K3X+0 K2X+0 K1X-10 K3Y0 K2Y0 K1Y0", "one digit before the point"),
+        ("L Z-1 F9\nSPL X+20 Y+0 K3X0.000000001 K2X+0 K1X-1E1 K3Y0 K2Y0 K1Y0", "one digit before the point"),
+        ("L Z-1 F9\nSPL X+20 Y+0 K3X+0 K2X+0 K1X-1E300 K3Y0 K2Y0 K1Y0", "exponents go"),
+        ("L Z-1 F9\nSPL X+20 Y+0 K2X+0 K3X+0 K1X-1E1 K3Y0 K2Y0 K1Y0", "in the order K3, K2, K1"),
+        ("L Z-1 F9\nSPL X+20 Y+0 K3X+0 K2X+0 K1X-1E1", "without K3Y"),
+        ("L Z-1 F9\nSPL X+20 K3X+0 K2X+0 K1X-1E1 K3Y0 K2Y0 K1Y0", "coefficients of Y"),
+        ("L Z-1 F9\nSPL X+20 K3X+0 K2X+0 K1X-1E1 FMAX", "FMAX"),
+        ("L Z-1 F9\nSPL IX+10 K3X+0 K2X+0 K1X-1E1", "its end is absolute"),
+        ("SPL X+20 K3X+0 K2X+0 K1X-1E1", "feed rate is missing"),
+        ("L Z-1 F9\nL X+20 K3X+0", "outside SPL"),
+        ("L Z-1 F9\nSPL F20", "without its end"),
+    ]);
+}

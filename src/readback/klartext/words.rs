@@ -1,5 +1,6 @@
 //! Cutting a Klartext block into words: letters with signed numbers, names, cycle parameters.
 
+use super::spline::coefficient;
 use crate::readback::number::number;
 
 /// One word of a block.
@@ -38,6 +39,20 @@ pub(super) fn words(text: &str, fault: &mut dyn FnMut(String)) -> Vec<Word> {
         let end = rest.find(char::is_whitespace).unwrap_or(rest.len());
         let (token, after) = rest.split_at(end);
         rest = after.trim_start();
+        if let Some(name) = token.get(..3).filter(|name| is_coefficient(name)) {
+            // The exponent may stand behind a blank.
+            let end = rest.find(char::is_whitespace).unwrap_or(rest.len());
+            let (next, after) = rest.split_at(end);
+            let more = next.strip_prefix('E').filter(|e| !e.is_empty());
+            if more.is_some() {
+                rest = after.trim_start();
+            }
+            match coefficient(token.get(3..).unwrap_or_default(), more, value_of) {
+                Ok(value) => words.push(Word::Address(name.to_owned(), value)),
+                Err(complaint) => fault(format!("{name}: {complaint}")),
+            }
+            continue;
+        }
         // `Q206= 150` and `Q206 = 150` are one word.
         if token.starts_with('Q') && token.ends_with('=') {
             let end = rest.find(char::is_whitespace).unwrap_or(rest.len());
@@ -49,6 +64,11 @@ pub(super) fn words(text: &str, fault: &mut dyn FnMut(String)) -> Vec<Word> {
         }
     }
     words
+}
+
+/// `K3X` and the like.
+fn is_coefficient(name: &str) -> bool {
+    matches!(name.as_bytes(), [b'K', b'1'..=b'3', b'A'..=b'C' | b'U'..=b'Z'])
 }
 
 fn word(token: &str, fault: &mut dyn FnMut(String)) -> Word {

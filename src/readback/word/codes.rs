@@ -22,6 +22,10 @@ pub(in crate::readback) enum Mode {
     NurbsKnots,
     /// BSPLINE: control points with PW follow, until another motion.
     BSpline,
+    /// G5: a cubic piece in each block.
+    Cubic,
+    /// POLY: a polynomial in each block.
+    Polynomial,
     /// CIP: a circle through a place between.
     Through,
     /// A drilling cycle.

@@ -2,6 +2,7 @@
 
 use super::block::{Block, bit};
 use super::codes::{G, Group, M, Mode};
+use super::cubic::Cubic;
 use super::renamed;
 use super::rules::{FeedReset, Language, Rules, Unpointed};
 use super::state::{Plan, State};
@@ -103,7 +104,9 @@ impl<'a> Machine<'a> {
         let mut plan = Plan::default();
         let mut good = true;
         for code in block.g.iter() {
-            let Some(g) = (self.rules.g)(code) else {
+            let piece = code == 50 && self.rules.cubic != Cubic::None;
+            let g = if piece { Some(G::Motion(Mode::Cubic)) } else { (self.rules.g)(code) };
+            let Some(g) = g else {
                 out.fault(format!("unknown code {}", g_name(code)));
                 good = false;
                 continue;

@@ -10,6 +10,7 @@ mod arc;
 mod block;
 mod codes;
 mod controls;
+mod cubic;
 mod cycle;
 mod frame;
 mod iso;

@@ -55,6 +55,10 @@ impl Machine<'_> {
         if between && self.state.motion != Mode::Through {
             out.fault("I1=, J1=, K1= without CIP");
         }
+        let told = block.words.as_ref().and_then(|w| w.polynomials.as_ref());
+        if told.is_some() && self.state.motion != Mode::Polynomial {
+            out.fault("PO without POLY: the control goes straight to the end");
+        }
         if plan.once == Some(G::Dwell) && axes != 0 {
             return out.fault("axis words in a dwell");
         }
@@ -80,6 +84,9 @@ impl Machine<'_> {
         if let Mode::Cycle(_) = mode {
             let begins = self.state.motion != mode;
             self.state.cycle.begin(begins, (!stays).then_some(self.state.position[2]));
+        }
+        if self.state.motion != mode {
+            self.state.cubic_leg = None;
         }
         self.state.motion = mode;
     }
@@ -114,6 +121,8 @@ impl Machine<'_> {
             }
             Mode::Arc { clockwise } => self.arc(block, clockwise, used, out),
             Mode::Through => self.through(block, axes, used, out),
+            Mode::Cubic => self.cubic(block, axes, used, out),
+            Mode::Polynomial => self.polynomial(block, axes, used, out),
             Mode::Cycle(kind) => self.cycle(block, kind, plan, used, out),
             // Blocks of an open curve never come here.
             Mode::NurbsPoints | Mode::NurbsKnots | Mode::BSpline => {}

@@ -245,6 +245,8 @@ pub(in crate::readback) struct Rules {
     pub arc_radius: u8,
     /// They count from the program's zero, without G90.1.
     pub arc_absolute: bool,
+    /// What G5 is.
+    pub cubic: super::cubic::Cubic,
     /// `P` in an arc is a number of turns.
     pub arc_turns: bool,
     /// An arc needs an end word in its plane.

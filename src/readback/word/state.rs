@@ -67,6 +67,8 @@ pub(in crate::readback) struct State {
     pub work_offset: Option<u16>,
     pub cycle: super::cycle::Sticky,
     pub prepared: Option<u32>,
+    /// Where a G5 without I and J leaves its start: against the last one's P and Q, mm.
+    pub cubic_leg: Option<crate::geom::Vec2>,
     pub ended: bool,
     pub assumed: u16,
 }
@@ -99,6 +101,7 @@ impl State {
             work_offset: None,
             cycle: super::cycle::Sticky::default(),
             prepared: None,
+            cubic_leg: None,
             ended: false,
             assumed: 0,
         }

@@ -254,6 +254,35 @@ fn a_nurbs_of_linuxcnc_has_uniform_clamped_knots() {
     assert_eq!(moves[3].feed, Some(100.0));
 }
 
+#[test]
+fn pieces_of_g5_go_by_the_ways_to_their_inner_points() {
+    let body = "G1 X0 Y0\nG5 X10 Y10 I0 J5 P-5 Q0\nX20 Y0 P0 Q5\nG91 G5 X1 Y2 I1 J0 P0 Q-1\nG90 G1 X3";
+    let moves = clean("linuxcnc", &linuxcnc(body));
+    let points = |m: &TraceMove| match &m.path {
+        TracePath::Nurbs { points, .. } => points.iter().map(|p| (p.x, p.y)).collect::<Vec<_>>(),
+        other => panic!("{other:?}"),
+    };
+    let [a, b, c] = [&moves[3], &moves[4], &moves[5]].map(points);
+    assert_eq!(a, [(0.0, 0.0), (0.0, 5.0), (5.0, 10.0), (10.0, 10.0)]);
+    // Without I and J it goes on as the one before arrived.
+    assert_eq!(b, [(10.0, 10.0), (15.0, 10.0), (20.0, 5.0), (20.0, 0.0)]);
+    assert_eq!(c, [(20.0, 0.0), (21.0, 0.0), (21.0, 1.0), (21.0, 2.0)]);
+    let last = (moves[6].start().xy(), moves[3].feed);
+    assert_eq!(last, (Point2::new(21.0, 2.0), Some(100.0)));
+    for (body, words) in [
+        ("G5 X1 Y1 P1 Q1", "needs I and J"),
+        ("G5 X1 Y1 I1 J1 P1 Q1\nG1 X2\nG5 X3 P1 Q1", "needs I and J"),
+        ("G5 X1 Y1 I1 P1 Q1", "needs I and J"),
+        ("G5 X1 Y1 I1 J1 Q1", "needs P and Q"),
+        ("G5 X1 Y1 Z1 I1 J1 P1 Q1", "an axis other than X and Y"),
+        ("G18 G5 X1 Y1 I1 J1 P1 Q1", "outside the XY plane"),
+        ("G5 I1 J1 P1 Q1", "no code in the block uses it"),
+    ] {
+        let got = trace("linuxcnc", &linuxcnc(body)).faults;
+        assert!(got.iter().any(|f| f.message.contains(words)), "{body}: {got:#?}");
+    }
+}
+
 fn fanuc(body: &str) -> String {
     format!(
         "%\nO0001\nG17 G21 G40 G49 G80 G90 G94 G54\nT1 M6\nG43 H1\nG0 X10. Y0. Z5.\nS1000 M3\nF100.\n{body}\nM30\n%\n"

@@ -5,6 +5,7 @@
 //! parameters t. Knots lie at equal shares of a density that is corrected by the deviation found in every interval.
 
 mod certify;
+mod pieces;
 mod spline;
 #[cfg(test)]
 mod tests;
@@ -30,6 +31,21 @@ pub enum Knots {
     },
     /// Not printed: the control uses 0, 0, 0, 0, 1, 2, … (LinuxCNC `G5.2`).
     Uniform,
+    /// None: the control takes cubic pieces one by one.
+    Pieces {
+        /// Decimals of a piece's inner control points beyond the grid's.
+        finer: u8,
+    },
+}
+
+impl Knots {
+    /// Blocks of a spline, beyond one for every knot interval.
+    fn more_blocks(self) -> usize {
+        match self {
+            Knots::Printed { .. } | Knots::Uniform => ORDER - 1,
+            Knots::Pieces { .. } => 0,
+        }
+    }
 }
 
 /// Rows per knot interval.
@@ -68,7 +84,8 @@ pub fn nurbs(tube: &Tube<'_>, grid: &Grid, knots: Knots, start: Option<f64>) -> 
     splines(&guarded.tube, grid, knots, start, usize::MAX).map(|fit| guarded.answer(fit))
 }
 
-/// The same with at most `most` control points in all; `None` when that many were not enough.
+/// The same with at most `most` control points in all (pieces, where the control takes those); `None` when that many were
+/// not enough.
 ///
 /// # Errors
 /// Those of [`nurbs`] that do not depend on the number of points.
@@ -104,8 +121,8 @@ fn splines(
     let mut fit = Fit { start: [0, 0], primitives: Vec::new(), lower_bound: None, deviation: (0.0, 0.0) };
     let mut left = most;
     for (i, stretch) in list.iter().enumerate() {
-        // Every stretch that follows takes as many points as the order at least.
-        let points = left.saturating_sub(ORDER * (list.len() - 1 - i));
+        // Every stretch that follows takes one knot interval at least.
+        let points = left.saturating_sub((1 + knots.more_blocks()) * (list.len() - 1 - i));
         let from = if stretch.closed { station_of(stretch, start) } else { 0.0 };
         let ends = if stretch.closed {
             let q = super::arcs::vertex_at(tube, grid, stretch, from)?;
@@ -144,7 +161,7 @@ struct Fitter<'a> {
     /// First and last control point.
     ends: [[i64; 2]; 2],
     knots: Knots,
-    /// Most control points.
+    /// Most control points, or pieces.
     most: usize,
 }
 
@@ -199,13 +216,14 @@ impl Fitter<'_> {
         0.5 * (self.tube.left + self.tube.right)
     }
 
-    /// Number of control points, the curve and its deviation.
+    /// Number of control points (or pieces), the curve and its deviation.
     fn fit(&self) -> Result<(usize, Primitive, (f64, f64)), FitError> {
         let shares = self.first_shares();
         // What rounding of the control points may take: half a step in each coordinate.
         let limit = (self.half() - 0.71 * self.grid.step).max(0.4 * self.half());
         let guess = self.count(&shares, limit);
-        let most = (GROWTH * guess + SPARE).min(MOST_POINTS).min(self.most.saturating_sub(ORDER - 1));
+        let most =
+            (GROWTH * guess + SPARE).min(MOST_POINTS).min(self.most.saturating_sub(self.knots.more_blocks()));
         let mut n = if guess as f64 > HOPELESS * most as f64 { most + 1 } else { guess.min(most) };
         let mut best = None;
         let (mut needed, mut refused) = (f64::INFINITY, 0);
@@ -232,7 +250,7 @@ impl Fitter<'_> {
                 Err(_) => break,
             }
         }
-        let best = best.map(|(primitive, deviation)| (n + ORDER - 1, primitive, deviation));
+        let best = best.map(|(primitive, deviation)| (n + self.knots.more_blocks(), primitive, deviation));
         best.ok_or(FitError::BandTooNarrow {
             needed: (2.0 * needed).clamp(2.0 * self.half() + self.grid.step, MOST_NEEDED),
             have: 2.0 * self.half(),
@@ -325,10 +343,11 @@ impl Fitter<'_> {
                 let print = |x: f64| (x * scale).round() / scale;
                 clamped(0.0, &inside.iter().map(|&x| print(x)).collect::<Vec<_>>(), print(length))
             }
+            Knots::Pieces { .. } => clamped(0.0, &inside, length),
         };
         let place = |t: f64| match self.knots {
             Knots::Uniform => shares.station(t / n as f64),
-            Knots::Printed { .. } => t,
+            Knots::Printed { .. } | Knots::Pieces { .. } => t,
         };
         let points = (0..n + ORDER - 1)
             .map(|j| {
@@ -446,6 +465,30 @@ impl Fitter<'_> {
 
     /// The spline with its points on the grid, when it keeps the band.
     fn print(&self, spline: &Spline) -> Option<(Primitive, (f64, f64))> {
+        let (printed, steps, pieces) = match self.knots {
+            Knots::Pieces { finer } => {
+                let (printed, steps) = pieces::cut(spline, self.grid, self.ends, finer)?;
+                (printed, steps, Some(finer))
+            }
+            Knots::Printed { .. } | Knots::Uniform => {
+                let (printed, steps) = self.on_grid(spline)?;
+                (printed, steps, None)
+            }
+        };
+        let (low, high) = extremes(&printed, self.stretch, self.from);
+        if high > self.tube.left || low < -self.tube.right {
+            return None;
+        }
+        let primitive = Primitive::Nurbs {
+            order: ORDER as u8,
+            points: steps.into_iter().map(|q| (q, 1.0)).collect(),
+            knots: printed.knots,
+            pieces,
+        };
+        Some((primitive, (high.max(0.0), (-low).max(0.0))))
+    }
+
+    fn on_grid(&self, spline: &Spline) -> Option<(Spline, Vec<[i64; 2]>)> {
         let grid_points: Vec<[i64; 2]> = spline
             .points
             .iter()
@@ -453,17 +496,7 @@ impl Fitter<'_> {
             .collect::<Option<_>>()?;
         let points: Vec<Point2> =
             grid_points.iter().map(|&q| super::arcs::grid_point(self.grid, q)).collect();
-        let printed = Spline { knots: spline.knots.clone(), points };
-        let (low, high) = extremes(&printed, self.stretch, self.from);
-        if high > self.tube.left || low < -self.tube.right {
-            return None;
-        }
-        let primitive = Primitive::Nurbs {
-            order: ORDER as u8,
-            points: grid_points.into_iter().map(|q| (q, 1.0)).collect(),
-            knots: printed.knots,
-        };
-        Some((primitive, (high.max(0.0), (-low).max(0.0))))
+        Some((Spline { knots: spline.knots.clone(), points }, grid_points))
     }
 }
 

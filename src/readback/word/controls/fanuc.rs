@@ -2,6 +2,7 @@
 
 use super::super::block::letters;
 use super::super::codes::{CycleKind, G, Group, M, Mode};
+use super::super::cubic::Cubic;
 use super::super::iso;
 use super::super::rules::{ArcEnd, Cycles, Dwell, FeedReset, Frame, Language, RotaryFeed, Rules, Unpointed};
 use crate::readback::FeedMode;
@@ -57,6 +58,7 @@ pub(in crate::readback::word) const RULES: Rules = Rules {
     arc_radius: b'R',
     arc_absolute: false,
     arc_turns: false,
+    cubic: Cubic::None,
     arc_needs_end: false,
     arc_end: ArcEnd::Spiral,
     arc_mode_stated: false,

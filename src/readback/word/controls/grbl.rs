@@ -1,6 +1,7 @@
 //! Grbl 1.1, from its list of supported codes and its error codes.
 
 use super::super::codes::{G, Group};
+use super::super::cubic::Cubic;
 use super::super::iso;
 use super::super::rules::{ArcEnd, Dwell, FeedReset, Frame, Language, RotaryFeed, Rules, Unpointed};
 
@@ -52,6 +53,7 @@ pub(super) const RULES: Rules = Rules {
     radius_wins: false,
     shaky_half_circle: false,
     arc_turns: false,
+    cubic: Cubic::None,
     arc_needs_end: true,
     arc_end: ArcEnd::Spiral,
     arc_offsets: *b"IJK",

@@ -1,6 +1,7 @@
 //! LinuxCNC, from its G-code reference and the behaviour of its interpreter.
 
 use super::super::codes::{CycleKind, G, Group, M, Mode};
+use super::super::cubic::Cubic;
 use super::super::iso;
 use super::super::rules::{ArcEnd, Cycles, Dwell, FeedReset, Frame, Language, RotaryFeed, Rules, Unpointed};
 use crate::readback::FeedMode;
@@ -62,6 +63,7 @@ pub(super) const RULES: Rules = Rules {
     radius_wins: false,
     shaky_half_circle: false,
     arc_turns: true,
+    cubic: Cubic::Joined,
     arc_needs_end: false,
     arc_end: ArcEnd::Spiral,
     arc_offsets: *b"IJK",

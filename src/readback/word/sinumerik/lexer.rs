@@ -159,6 +159,10 @@ impl Lexer<'_, '_> {
         if equals && letter == b'T' && self.peek() == Some(b'"') {
             return self.tool_name(block);
         }
+        if equals && self.rest_starts(b"PO(") {
+            self.at += b"PO(".len();
+            return self.powers(Some(letter), rules, block);
+        }
         let mode = if equals { self.coordinate_mode() } else { None };
         let Some(value) = self.number() else {
             (self.fault)(format!(
@@ -232,6 +236,7 @@ impl Lexer<'_, '_> {
                     _ => words.interval = value,
                 }
             }
+            "PO" if self.eat(b'[') => self.polynomial(rules, block),
             "MCALL" => {
                 block.words().modal_call = true;
             }
@@ -244,6 +249,64 @@ impl Lexer<'_, '_> {
                     self.skip_value();
                 }
             },
+        }
+    }
+
+    fn rest_starts(&mut self, name: &[u8]) -> bool {
+        self.skip_blanks();
+        let rest = self.line.get(self.at..).unwrap_or_default();
+        rest.get(..name.len()).is_some_and(|start| start.eq_ignore_ascii_case(name))
+    }
+
+    /// `X]=(…)` after `PO[`; without an axis it is the denominator.
+    fn polynomial(&mut self, rules: &Rules, block: &mut Block) {
+        self.skip_blanks();
+        let letter = self.peek().map(|c| c.to_ascii_uppercase()).filter(u8::is_ascii_uppercase);
+        self.at += usize::from(letter.is_some());
+        if !(self.eat(b']') && self.eat(b'=') && self.eat(b'(')) {
+            (self.fault)(format!("PO in column {} is not PO[axis]=(end, coefficients)", self.at + 1));
+            self.at = self.line.len();
+            return;
+        }
+        self.powers(letter, rules, block);
+    }
+
+    /// End and coefficients up to the bracket; the end is the axis's word.
+    fn powers(&mut self, letter: Option<u8>, rules: &Rules, block: &mut Block) {
+        let mut given = Vec::new();
+        loop {
+            let Some(value) = self.number() else {
+                (self.fault)(format!("a coefficient of PO in column {} is no number", self.at + 1));
+                self.at = self.line.len();
+                return;
+            };
+            given.push(value);
+            if !self.eat(b',') {
+                break;
+            }
+        }
+        if !self.eat(b')') {
+            (self.fault)("the bracket of PO is not closed".to_owned());
+        }
+        if given.len() > super::poly::DEGREE {
+            (self.fault)(format!("PO of {} numbers: polynomials go to the fifth degree", given.len()));
+            given.truncate(super::poly::DEGREE);
+        }
+        let values = |of: &[Number]| of.iter().map(|n| n.value).collect();
+        let place = letter.and_then(|l| b"XYZ".iter().position(|a| *a == l));
+        match (letter, place, given.split_first()) {
+            (Some(letter), Some(axis), Some((end, rest))) => {
+                super::super::block::store(letter, *end, rules, block, self.fault);
+                let told = block.words().polynomials.get_or_insert_default();
+                told.axes[axis] = Some(values(rest));
+            }
+            (None, ..) => {
+                let told = block.words().polynomials.get_or_insert_default();
+                if told.denominator.replace(values(&given)).is_some() {
+                    (self.fault)("two denominators PO[] in one block".to_owned());
+                }
+            }
+            _ => (self.fault)("PO of an axis that this reader does not follow".to_owned()),
         }
     }
 

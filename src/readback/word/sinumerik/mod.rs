@@ -12,6 +12,7 @@ use crate::readback::FeedMode;
 
 mod cycles;
 mod lexer;
+mod poly;
 mod through;
 
 pub(super) use cycles::Modal;
@@ -34,6 +35,8 @@ pub(in crate::readback) struct Words {
     pub weight: Option<f64>,
     /// `PL=`: length of a parameter interval.
     pub interval: Option<f64>,
+    /// `PO[X]=(…)` and `X=PO(…)`.
+    pub polynomials: Option<Box<poly::Polynomials>>,
     /// `CTOL=`, `ADIS=`, in the unit in force.
     pub tolerance: Option<f64>,
     /// `T="…"`.
@@ -152,6 +155,7 @@ fn g(tenths: u16) -> Option<G> {
         710 | 7100 => G::Units { inch: false },
         7000 => G::Units { inch: true },
         10_200 => G::Motion(Mode::BSpline),
+        10_210 => G::Motion(Mode::Polynomial),
         10_230 => G::Motion(Mode::Through),
         930 => G::Feed(FeedMode::InverseTime),
         940 => G::Feed(FeedMode::PerMinute),
@@ -166,7 +170,7 @@ fn g(tenths: u16) -> Option<G> {
 
 fn unfollowed(tenths: u16) -> Option<G> {
     Some(G::Unfollowed(match tenths {
-        50 | 70 | 330 | 10_210..=10_221 | 10_231 => Group::Motion,
+        50 | 70 | 330 | 10_220..=10_221 | 10_231 => Group::Motion,
         410 | 420 => Group::Radius,
         700 => Group::Units,
         250 | 260 | 740 | 750 | 1100 | 1110 | 1120 => Group::Once,

@@ -144,7 +144,7 @@ fn the_control_refuses_what_it_refuses() {
         ("G1 X1 (comment)", "bad character '('"),
         ("G1 X=R1", "is not followed by a number"),
         ("R1=5", "an R parameter"),
-        ("POLY X1", "POLY is not followed"),
+        ("CSPLINE X1", "CSPLINE is not followed"),
         ("CYCLE800(1)", "CYCLE800 is not followed"),
         ("POCKET3(1,2)", "POCKET3 is not followed"),
         ("MCALL CYCLE81(10,0,2,5)\nG0 X1", "must lie over the bottom"),
@@ -185,6 +185,71 @@ fn a_bspline_starts_where_the_tool_is_and_ends_with_the_next_motion() {
         ("BSPLINE\nX11 Y1 PW=0\nX12\nX13\nG1 X12", "PW=0"),
         ("BSPLINE\nX11 Y1 PL=2\nX12\nX13\nG1 X12", "PL=2"),
     ]);
+}
+
+fn control(m: &TraceMove) -> Vec<[f64; 4]> {
+    match &m.path {
+        TracePath::Nurbs { points, weights, .. } => {
+            points.iter().zip(weights).map(|(p, w)| [p.x, p.y, m.z.0, *w]).collect()
+        }
+        TracePath::Space(c) => c.points.iter().zip(&c.weights).map(|(p, w)| [p.x, p.y, p.z, *w]).collect(),
+        other => panic!("not a curve: {other:?}"),
+    }
+}
+
+fn near(got: &[[f64; 4]], want: &[[f64; 4]]) -> bool {
+    got.len() == want.len() && got.iter().flatten().zip(want.iter().flatten()).all(|(a, b)| close(*a, *b))
+}
+
+#[test]
+fn polynomials_get_their_first_coefficient_from_their_end() {
+    // x = 10 + 30 p, y = 30 p², and the same over an interval of 2: y = 7.5 q².
+    let want = [[10.0, 0.0, 5.0, 1.0], [25.0, 0.0, 5.0, 1.0], [40.0, 30.0, 5.0, 1.0]];
+    for body in [
+        "POLY PO[X]=(40) PO[Y]=(30,30) F50",
+        "POLY X=PO(40) Y=PO(30, 30)",
+        "POLY X40 PO[Y]=(30,7.5) PL=2",
+        "POLY\npo[x] = (40.0) PO[Y]=(3EX1,0.75EX1) PL=2",
+    ] {
+        let moves = fine(body);
+        assert!(near(&control(&moves[0]), &want), "{body}: {:?}", moves[0]);
+    }
+    // A climb of the third degree: z = 5 + 3 p² - 2 p³; then straight on, without POLY being said again.
+    let moves = fine("POLY PO[X]=(40) PO[Z]=(6,3,-2)\nX50 Y3\nG1 Z7");
+    let want = [[10.0, 0.0, 5.0, 1.0], [20.0, 0.0, 5.0, 1.0], [30.0, 0.0, 6.0, 1.0], [40.0, 0.0, 6.0, 1.0]];
+    assert!(near(&control(&moves[0]), &want), "{:?}", moves[0]);
+    assert!(
+        matches!(moves[1].path, TracePath::Line { .. }) && moves[1].end().y == 3.0 && moves[1].z.0 == 6.0
+    );
+    // The fifth degree.
+    let moves = fine("POLY PO[Y]=(1,0,10,-15,6)");
+    assert_eq!(control(&moves[0]).len(), 6);
+    refused(&[
+        ("PO[X]=(40,1) F50", "without POLY"),
+        ("G1 PO[X]=(40,1)", "without POLY"),
+        ("POLY PO[Y]=(1,0,10,-15,6,7)", "fifth degree"),
+        ("POLY PO[X]=(40,1) PL=0", "PL=0"),
+        ("POLY PO[A]=(40,1)", "does not follow"),
+        ("POLY PO[X]=(40,1", "not closed"),
+        ("POLY PO[X=(40,1)", "is not PO[axis]"),
+        ("POLY PO[X]=(40,R1)", "is no number"),
+        ("POLY PO[X]=(40,1) X7", "multiple X words"),
+        ("POLY PO[X]=(1,2) PO[]=(-1)", "a denominator that may be 0"),
+        ("POLY PO[X]=(1,2) Y3 PO[]=(2)", "an axis without PO"),
+        ("SUPA G0 X0\nPOLY PO[X]=(1,2)", "not known"),
+    ]);
+}
+
+#[test]
+fn a_denominator_makes_a_circle() {
+    // x = 10 (1 - p²) / (1 + p²), y = 20 p / (1 + p²).
+    let moves = fine("POLY PO[X]=(0,-10) PO[Y]=(10) PO[]=(2,1)");
+    let TracePath::Nurbs { order, points, weights, knots } = &moves[0].path else { panic!("{:?}", moves[0]) };
+    assert_eq!(*order, 3);
+    for i in 0..=8 {
+        let at = crate::readback::nurbs_point(3, points, weights, knots, f64::from(i) / 8.0);
+        assert!(close(at.coords.norm(), 10.0), "{at:?}");
+    }
 }
 
 fn tilted(m: &TraceMove) -> &crate::readback::Tilted {
