@@ -189,7 +189,7 @@ fn holes(
 
 /// All posts that random programs are made for.
 fn posts() -> impl Iterator<Item = &'static str> {
-    builtin_names().into_iter().chain(examples::names())
+    builtin_names().chain(examples::names())
 }
 
 /// What a post makes of CL data.

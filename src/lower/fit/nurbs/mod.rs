@@ -5,12 +5,14 @@
 //! parameters t. Knots lie at equal shares of a density that is corrected by the deviation found in every interval.
 
 mod certify;
+mod knots;
 mod pieces;
 mod spline;
 #[cfg(test)]
 mod tests;
 
 use certify::{extremes, stations};
+pub use knots::Knots;
 use spline::{ORDER, Spline, basis, clamped, interval};
 
 use super::arcs::minimax::{BLOCK, Problem, Row, WIDTH};
@@ -20,33 +22,6 @@ use super::guard::guarded;
 use super::{Fit, FitError, Grid, Primitive, Tube};
 use crate::geom::{Point2, left};
 use crate::math;
-
-/// How a control takes the knots of a curve.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Knots {
-    /// Printed with this many decimals (Fanuc `G06.2`).
-    Printed {
-        /// Decimals.
-        decimals: u32,
-    },
-    /// Not printed: the control uses 0, 0, 0, 0, 1, 2, … (LinuxCNC `G5.2`).
-    Uniform,
-    /// None: the control takes cubic pieces one by one.
-    Pieces {
-        /// Decimals of a piece's inner control points beyond the grid's.
-        finer: u8,
-    },
-}
-
-impl Knots {
-    /// Blocks of a spline, beyond one for every knot interval.
-    fn more_blocks(self) -> usize {
-        match self {
-            Knots::Printed { .. } | Knots::Uniform => ORDER - 1,
-            Knots::Pieces { .. } => 0,
-        }
-    }
-}
 
 /// Rows per knot interval.
 const ROWS: u32 = 8;

@@ -107,7 +107,7 @@ impl Machine<'_> {
         }
         let degree = above.iter().chain([&below]).map(Vec::len).max().unwrap_or(2) - 1;
         let weights = bernstein(&below, degree);
-        if weights.iter().any(|w| !(*w > 0.0)) {
+        if !weights.iter().all(|w| *w > 0.0) {
             return Err("POLY with a denominator that may be 0 is not followed by this reader".to_owned());
         }
         let along: Vec<Vec<f64>> = above.iter().map(|c| bernstein(c, degree)).collect();
