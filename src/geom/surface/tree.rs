@@ -51,6 +51,7 @@ pub struct SurfaceTree {
     nodes: Vec<Node>,
     leaves: Vec<Leaf>,
     sure: Vec<(usize, Area)>,
+    slabs: Vec<Slab>,
     reach: f64,
     upright: bool,
     creases: Creases,
@@ -70,6 +71,8 @@ struct Node {
     /// The piece over which the distance is convex for every point within the tree's reach of the box, as an index
     /// of `sure`; [`NONE`] where that is not known.
     sure: u32,
+    /// The cylinder about it, as an index of `slabs`; [`NONE`] over several patches.
+    slab: u32,
 }
 
 const NONE: u32 = u32::MAX;
@@ -87,7 +90,6 @@ struct Leaf {
     patch: usize,
     area: Area,
     hull: [Interval; 3],
-    slab: Slab,
     bend: Bend,
 }
 
@@ -202,7 +204,7 @@ impl SurfaceTree {
         let derivatives: Vec<Derivatives> = net.patches().iter().map(Derivatives::new).collect();
         let swings = derivatives.iter().map(slide::swings).collect();
         let glides = net.patches().iter().map(Swings::new).collect();
-        let (nodes, leaves, sure) = (Vec::new(), Vec::new(), Vec::new());
+        let (nodes, leaves, sure, slabs) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         let creases = Creases::new(&net);
         let upright = true;
         let mut tree = SurfaceTree {
@@ -211,6 +213,7 @@ impl SurfaceTree {
             nodes,
             leaves,
             sure,
+            slabs,
             reach,
             upright,
             creases,
@@ -312,19 +315,20 @@ impl SurfaceTree {
         let derivatives = self.derivatives[patch].boxes(area.u, area.v);
         let (hull, bend) = (hull(piece), Bend::new(&derivatives));
         let sure = if bend.is_convex_within(&hull, reach) { self.piece(patch, area) } else { NONE };
+        self.slabs.push(Slab::new(piece));
+        let slab = index(self.slabs.len() - 1);
         if depth == SHALLOWEST {
             self.glides[patch].add(&hull, &derivatives);
         }
         if depth >= SHALLOWEST {
-            let slab = Slab::new(piece);
-            let size = 2.0 * slab.radius;
+            let size = 2.0 * self.slabs[slab as usize].radius;
             let fits = convex(&derivatives, &cone(&derivatives, reach, size)) && size < reach.max(1e-3);
             let large = size > LARGE * reach && depth < STEEPEST && self.leaves.len() < MOST_LEAVES;
             if fits || depth >= DEEPEST && !large {
                 self.upright &= rises(&derivatives);
-                self.leaves.push(Leaf { patch, area, hull, slab, bend });
+                self.leaves.push(Leaf { patch, area, hull, bend });
                 let kind = Kind::Leaf(index(self.leaves.len() - 1));
-                return Node { low: hull.map(|i| i.lo), high: hull.map(|i| i.hi), kind, sure };
+                return Node { low: hull.map(|i| i.lo), high: hull.map(|i| i.hi), kind, sure, slab };
             }
         }
         let first = self.nodes.len();
@@ -334,7 +338,7 @@ impl SurfaceTree {
             let child = piece.restrict(inside.u, inside.v);
             self.nodes[first + k] = self.node(patch, &child, *part, depth + 1, reach);
         }
-        Node { sure, ..self.branch(first, 4) }
+        Node { sure, slab, ..self.branch(first, 4) }
     }
 
     fn piece(&mut self, patch: usize, area: Area) -> u32 {
@@ -420,8 +424,13 @@ thread_local! {
     static STACK: RefCell<Vec<(f64, u32)>> = const { RefCell::new(Vec::new()) };
 }
 
-const EMPTY: Node =
-    Node { low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3], kind: Kind::Branch(0, 0), sure: NONE };
+const EMPTY: Node = Node {
+    low: [f64::INFINITY; 3],
+    high: [f64::NEG_INFINITY; 3],
+    kind: Kind::Branch(0, 0),
+    sure: NONE,
+    slab: NONE,
+};
 
 #[allow(clippy::cast_possible_truncation)]
 fn index(n: usize) -> u32 {

@@ -46,20 +46,36 @@ impl Capsule {
     /// The height at which the ray along the normal enters the capsule.
     pub(super) fn height(&self, at: &Corner, radius: f64) -> f64 {
         let radius = radius - self.off_axis;
-        let (offset, a) = (at.p - self.from, self.along);
-        if self.length > 0.0 {
-            let (oa, na) = (offset.dot(&a), at.n.dot(&a));
-            let (o, n) = (offset - a * oa, at.n - a * na);
-            if let Some(t) = enters(o, n, radius)
-                && (0.0..=self.length).contains(&(oa + na * t))
-            {
-                return t;
-            }
-        }
+        let offset = at.p - self.from;
         let end = |p: Point3| enters(at.p - p, at.n, radius).unwrap_or(f64::INFINITY);
-        end(self.from).min(end(self.to))
+        let (oa, na) = (offset.dot(&self.along), at.n.dot(&self.along));
+        let (o, n) = (offset - self.along * oa, at.n - self.along * na);
+        if self.length <= 0.0 || n.norm_squared() < PARALLEL {
+            return end(self.from).min(end(self.to));
+        }
+        // The cylinder about the whole axis holds the capsule; what enters it before an end enters at the ball of that end,
+        // if anywhere.
+        let Some(t) = enters(o, n, radius) else { return f64::INFINITY };
+        let s = oa + na * t;
+        if s < 0.0 {
+            end(self.from)
+        } else if s > self.length {
+            end(self.to)
+        } else {
+            t
+        }
+    }
+
+    /// Square distance of the axis from a place.
+    pub(super) fn apart(&self, p: Point3) -> f64 {
+        let offset = p - self.from;
+        let s = offset.dot(&self.along).clamp(0.0, self.length);
+        (offset - self.along * s).norm_squared()
     }
 }
+
+/// Square of the sine of the angle below which a ray is parallel to an axis.
+const PARALLEL: f64 = 1e-12;
 
 impl Capsule {
     /// Looks how far the ball is off the surface.
@@ -90,7 +106,7 @@ impl Capsule {
 fn enters(o: Vec3, n: Vec3, radius: f64) -> Option<f64> {
     let (a, b, c) = (n.norm_squared(), o.dot(&n), o.norm_squared() - radius * radius);
     let root = b * b - a * c;
-    if a < 1e-12 || root < 0.0 {
+    if a < PARALLEL || root < 0.0 {
         return None;
     }
     Some((-b - root.sqrt()) / a)

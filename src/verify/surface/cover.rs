@@ -3,7 +3,7 @@
 //! The surface is cut into cells, rectangles of its parameters. What stands on a cell is bounded from its corners: where
 //! all four corners, raised by T along their normals, lie in one capsule (the ball swept along one move, a convex body),
 //! the whole raised cell does but for its own sagitta ε, so that no more than T + ε/cos stays on it. Cells whose bound
-//! is above what is known to be left somewhere are cut in four.
+//! is above what is known to be left somewhere are cut in two, across the ridges.
 
 use rayon::prelude::*;
 
@@ -57,11 +57,16 @@ pub(super) fn check(
         field.floor = left.value * if field.cusps { OF_INTEREST } else { ENOUGH };
         field.look_around(allowed.unwrap_or(4.0 * left.value), bulge);
     }
-    let found: Vec<Tile<'_>> = tiles.par_iter().map(|(patch, tile)| field.tile(*patch, *tile)).collect();
+    let mut found: Vec<Tile<'_>> = tiles.par_iter().map(|(patch, tile)| field.tile(*patch, *tile)).collect();
+    // What is more than may be left is told for each tile.
+    let most = |of: fn(&Tile<'_>) -> f64| found.iter().map(of).fold(0.0, f64::max);
+    let known = most(|tile| tile.left.value).min(allowed.unwrap_or(f64::INFINITY));
+    let ridge = most(|tile| tile.cusp.value).min(finish.cusp.unwrap_or(0.0));
+    found.par_iter_mut().for_each(|tile| tile.finish((known, ridge)));
     let mut cover = Cover { left, bound: 0.0, cusp: None, unreachable: None };
     for tile in &found {
         cover.left.take(tile.left);
-        cover.bound = cover.bound.max(tile.bound);
+        cover.bound = cover.bound.max(tile.bound.value);
         if tile.unreachable.value > 0.0 {
             cover.unreachable.get_or_insert(Worst::NONE).take(tile.unreachable);
         }
@@ -105,8 +110,8 @@ impl Tile<'_> {
     /// be lower there.
     fn short(&self, (h, allowed): (f64, f64)) -> Option<(Point3, f64)> {
         let cusp = (self.cusp.value > h * (1.0 + CUSP_SLACK)).then(|| (self.cusp.at, h / self.cusp.value));
-        let at = if self.left.value > 0.0 { self.left.at } else { self.cusp.at };
-        let over = self.bound.max(self.left.value) - allowed;
+        let at = if self.left.value > allowed { self.left.at } else { self.bound.at };
+        let over = self.bound.value.max(self.left.value) - allowed;
         let left = (over > 0.0).then(|| (at, (h - over) / h));
         let (at, share) = cusp.into_iter().chain(left).min_by(|a, b| a.1.total_cmp(&b.1))?;
         Some((at, (share * SURE).clamp(STEEPEST, 1.0)))

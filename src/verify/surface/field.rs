@@ -9,7 +9,6 @@ use super::moves::Worst;
 use crate::cl::{Finish, Operation};
 use crate::geom::surface::{Foot, SurfaceTree};
 use crate::geom::{Point2, Point3, nearest_on_way};
-use crate::math;
 
 /// Tiles of a patch in each direction, checked in parallel.
 pub(super) const TILES: u32 = 16;
@@ -44,7 +43,7 @@ pub(super) struct Field<'a> {
     pub passes: &'a [Swept],
     pub capsules: Vec<Capsule>,
     /// Moves whose centres pass farther beside a point leave more there than is of interest, mm.
-    around: f64,
+    pub around: f64,
     buckets: Buckets,
 }
 
@@ -112,7 +111,7 @@ impl<'a> Field<'a> {
             let Some(corner) = Corner::new(whole, place(tile / TILES, u), place(tile % TILES, v)) else {
                 continue;
             };
-            self.gather(&[corner; 4], &mut near);
+            self.gather_about((self.centre(&corner).xy(), 0.0), self.around, &mut near);
             let least =
                 near.iter().map(|i| (self.height(*i, &corner), *i)).min_by(|a, b| a.0.total_cmp(&b.0));
             let (height, by) = least.unwrap_or((f64::INFINITY, u32::MAX));
@@ -134,7 +133,7 @@ impl<'a> Field<'a> {
         near: &mut Vec<u32>,
     ) -> Option<(f64, &'a Swept)> {
         let corner = Corner::new(self.tree.net().patches().get(patch)?, uv[0], uv[1])?;
-        self.gather_within(&[corner], self.beside(most, 1.0), near);
+        self.gather_about((self.centre(&corner).xy(), 0.0), self.beside(most, 1.0), near);
         let heights = near.iter().map(|i| (self.height(*i, &corner), *i));
         let (height, by) = heights.min_by(|a, b| a.0.total_cmp(&b.0)).filter(|(h, _)| h.is_finite())?;
         Some((height, self.passes.get(by as usize)?))
@@ -146,33 +145,21 @@ impl<'a> Field<'a> {
         Worst { value, line, block, at: at.p }
     }
 
-    /// Moves that may reach the corners of a cell.
-    pub(super) fn gather(&self, corners: &[Corner], near: &mut Vec<u32>) {
-        self.gather_within(corners, self.around, near);
-    }
-
-    fn gather_within(&self, corners: &[Corner], around: f64, near: &mut Vec<u32>) {
-        let mut low = [f64::INFINITY; 2];
-        let mut high = [f64::NEG_INFINITY; 2];
-        for c in corners {
-            let centre = c.p + c.n * self.ball;
-            for i in 0..2 {
-                low[i] = low[i].min(centre[i]);
-                high[i] = high[i].max(centre[i]);
-            }
-        }
-        self.buckets.gather([0, 1].map(|i| (low[i] - around, high[i] + around)), near);
-        // Of the moves in these squares, those that come so near in plan.
-        let middle = Point2::new(0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1]));
-        let half = 0.5 * math::hypot(high[0] - low[0], high[1] - low[1]);
-        let far = around + half;
+    /// Moves that come so near to a disc in plan.
+    pub(super) fn gather_about(&self, (middle, half): (Point2, f64), far: f64, near: &mut Vec<u32>) {
+        self.buckets.gather([0, 1].map(|i| (middle[i] - far, middle[i] + far)), near);
         let close = |swept: &Swept| beside(middle, swept) <= far * far && abreast(middle, swept, half);
         near.retain(|i| self.passes.get(*i as usize).is_some_and(close));
     }
 
+    /// The ball's centre when it touches a point.
+    pub(super) fn centre(&self, at: &Corner) -> Point3 {
+        at.p + at.n * self.ball
+    }
+
     /// Whether the ball can be set on a point without gouging elsewhere.
     pub(super) fn reaches(&self, patch: usize, at: &Corner) -> bool {
-        let centre = at.p + at.n * self.ball;
+        let centre = self.centre(at);
         let foot = Foot { patch, uv: at.uv, point: at.p, distance: self.ball, certain: 0.0 };
         !self.tree.comes_within(centre, &foot, self.ball - 1e-7)
     }

@@ -5,12 +5,14 @@
 
 mod buckets;
 mod capsule;
+mod cell;
 mod clearing;
 #[cfg(test)]
 mod clearing_tests;
 mod cover;
 mod field;
 mod moves;
+mod near;
 mod remaining;
 mod remains;
 #[cfg(test)]

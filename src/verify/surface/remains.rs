@@ -15,10 +15,10 @@ use rayon::prelude::*;
 use super::Swept;
 use super::buckets::Buckets;
 use super::capsule::Corner;
+use super::cell::{self, Bend};
 use super::cover::{Cover, STEEPEST, SURE};
 use super::field::{TILES, tiles};
 use super::moves::Worst;
-use super::tile::Bend;
 use crate::cl::{Finish, Operation};
 use crate::diag::codes::verification as codes;
 use crate::geom::surface::{Cutter, Patch};
@@ -344,20 +344,10 @@ impl<'a> Field<'a> {
 
     /// Where a cell is to be halved: across the direction in which what is left on it changes most.
     fn axis(&self, judged: &Judged, corners: &[Corner; 4], (size, sagitta): ([f64; 2], f64)) -> usize {
-        /// Cells that are so much longer than wide are halved in any case.
-        const LONG: f64 = 64.0;
-        let longest = usize::from(size[1] > size[0]);
-        let Some(swept) = judged.best.and_then(|i| self.passes.get(i as usize)) else { return longest };
-        if size[longest] > LONG * size[1 - longest] || size[1 - longest] < SMALLEST {
-            return longest;
-        }
-        let h = corners.map(|c| self.height((&self.finish.cutter, 0.0), swept, &c, self.finish.leave));
-        let along_u = (h[0] - h[2]).abs().max((h[1] - h[3]).abs());
-        let along_v = (h[0] - h[1]).abs().max((h[2] - h[3]).abs());
-        if !(along_u.is_finite() && along_v.is_finite()) || sagitta > along_u.max(along_v) {
-            return longest;
-        }
-        usize::from(along_v > along_u)
+        let swept = judged.best.and_then(|i| self.passes.get(i as usize));
+        let height =
+            |swept: &Swept, c: &Corner| self.height((&self.finish.cutter, 0.0), swept, c, self.finish.leave);
+        cell::axis(swept.map(|swept| corners.map(|c| height(swept, &c))), (size, sagitta), SMALLEST)
     }
 
     /// Height along the normal at which a point, raised, enters a cutter on its move; above what is to be left.

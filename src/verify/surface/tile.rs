@@ -1,9 +1,14 @@
-//! Cells of a part of a patch, cut until what is left on each is told.
+//! Parts of a patch, cut into cells until what is left on each is told.
+//!
+//! Ridges between passes are looked for first, on cells that are not settled yet: the highest of them all tells which cells
+//! are of no interest.
 
 use super::capsule::{Capsule, Corner};
+use super::cell::{Bend, Cell, axis};
 use super::field::{Field, TILES};
 use super::moves::Worst;
-use crate::geom::surface::{Foot, Patch, SurfaceTree};
+use super::near::{Lists, Near};
+use crate::geom::surface::{Foot, Patch};
 
 /// Deviations of the path between the places where they are known differ by so much of what is allowed from those of a
 /// straight line.
@@ -12,31 +17,47 @@ const ABOUT: f64 = 0.03;
 const MOST_CELLS: u32 = 400_000;
 /// Cells are not cut below this size, mm.
 const SMALLEST: f64 = 2e-3;
+/// Ridges are looked for on cells of no more than this, as shares of the ball's radius.
+const RIDGED: [f64; 2] = [0.12, 0.03];
+/// Steps to a ridge between two corners.
+const STEPS: u32 = 6;
 
 pub(super) struct Tile<'a> {
     field: &'a Field<'a>,
     pub left: Worst,
-    pub bound: f64,
+    pub bound: Worst,
     pub cusp: Worst,
     pub unreachable: Worst,
+    /// What is known to be left, and to stand as a cusp, elsewhere, mm.
+    elsewhere: (f64, f64),
     cells: u32,
-    near: Vec<u32>,
-    /// What each of the moves near a cell leaves at its corners, mm.
-    heights: Vec<[f64; 4]>,
-    patch: usize,
+    patch: &'a Patch,
+    place: usize,
+    bend: Bend,
+    lists: Lists,
+    /// Cells that wait for what other tiles tell.
+    waiting: Vec<Cell>,
 }
 
-/// Parameter rectangle with its corners, (u₀,v₀) (u₀,v₁) (u₁,v₀) (u₁,v₁); `None` where the surface has no normal.
-#[derive(Clone, Copy)]
-struct Cell {
-    u: (f64, f64),
-    v: (f64, f64),
-    corners: [Option<Corner>; 4],
-    /// A move that left little on a larger cell, if any.
-    best: Option<u32>,
+/// What becomes of a cell.
+enum Verdict {
+    Settled,
+    Waits,
+    Halved { axis: usize, best: Option<u32>, near: Option<Near>, looks: usize },
+}
+
+/// What the moves near a cell leave at its corners.
+struct Least {
+    heights: [f64; 4],
+    by: [u32; 4],
+    /// The move that leaves least on all of them, and what it leaves there.
+    best: Option<(u32, [f64; 4])>,
+    /// The most of that.
+    most: f64,
 }
 
 impl Field<'_> {
+    /// What is left on a tile, but for cells that wait.
     pub(super) fn tile(&self, patch: usize, tile: u32) -> Tile<'_> {
         let part = |k: u32| (f64::from(k) / f64::from(TILES), f64::from(k + 1) / f64::from(TILES));
         let whole = &self.tree.net().patches()[patch];
@@ -44,150 +65,148 @@ impl Field<'_> {
         let mut found = Tile {
             field: self,
             left: Worst::NONE,
-            bound: 0.0,
+            bound: Worst::NONE,
             cusp: Worst::NONE,
             unreachable: Worst::NONE,
+            elsewhere: (self.floor, 0.0),
             cells: 0,
-            near: Vec::new(),
-            heights: Vec::new(),
-            patch,
+            patch: whole,
+            place: patch,
+            bend: Bend::new(self.tree, patch, first.u, first.v),
+            lists: Lists::new(),
+            waiting: vec![first],
         };
-        let bend = Bend::new(self.tree, patch, first.u, first.v);
-        let mut stack = vec![first];
-        while let Some(cell) = stack.pop() {
-            if let Some((axis, best)) = found.cell(&bend, &cell) {
-                stack.extend(Cell { best, ..cell }.halves(whole, axis));
-            }
-        }
+        found.work(self.cusps);
         found
     }
 }
 
-/// Bounds of the derivatives over a tile, mm per unit, and per square, of its patch's parameters.
-pub(super) struct Bend {
-    uu: f64,
-    uv: f64,
-    vv: f64,
-    u: f64,
-    v: f64,
-}
+impl Tile<'_> {
+    /// Goes on with the cells that wait, now that so much is known to be left, and to stand as a cusp, elsewhere.
+    pub(super) fn finish(&mut self, (left, cusp): (f64, f64)) {
+        self.elsewhere = (left.max(self.field.floor), cusp);
+        self.work(false);
+    }
 
-impl Bend {
-    pub(super) fn new(tree: &SurfaceTree, patch: usize, u: (f64, f64), v: (f64, f64)) -> Bend {
-        let [u, v, uu, uv, vv] = tree.derivatives(patch, u, v);
-        Bend { uu, uv, vv, u, v }
-    }
-    /// How far the cell may lie from the hull of its corners, mm.
-    pub(super) fn sagitta(&self, du: f64, dv: f64) -> f64 {
-        (self.uu * du * du + 2.0 * self.uv * du * dv + self.vv * dv * dv) / 8.0
-    }
-    /// Largest lengths of a cell, mm.
-    pub(super) fn size(&self, du: f64, dv: f64) -> [f64; 2] {
-        [self.u * du, self.v * dv]
-    }
-}
-
-impl Cell {
-    fn new(patch: &Patch, u: (f64, f64), v: (f64, f64)) -> Cell {
-        let corners = [(u.0, v.0), (u.0, v.1), (u.1, v.0), (u.1, v.1)].map(|(u, v)| Corner::new(patch, u, v));
-        Cell { u, v, corners, best: None }
-    }
-    fn halves(&self, patch: &Patch, axis: usize) -> [Cell; 2] {
-        let middle = |t: (f64, f64)| 0.5 * (t.0 + t.1);
-        let [a, b, c, d] = self.corners;
-        if axis == 0 {
-            let m = middle(self.u);
-            let (e, f) = (Corner::new(patch, m, self.v.0), Corner::new(patch, m, self.v.1));
-            let near = Cell { u: (self.u.0, m), corners: [a, b, e, f], ..*self };
-            [near, Cell { u: (m, self.u.1), corners: [e, f, c, d], ..*self }]
-        } else {
-            let m = middle(self.v);
-            let (e, f) = (Corner::new(patch, self.u.0, m), Corner::new(patch, self.u.1, m));
-            let near = Cell { v: (self.v.0, m), corners: [a, e, c, f], ..*self };
-            [near, Cell { v: (m, self.v.1), corners: [e, b, f, d], ..*self }]
+    /// Works on the cells that wait; some may wait again.
+    fn work(&mut self, may_wait: bool) {
+        let mut stack = core::mem::take(&mut self.waiting);
+        while let Some(cell) = stack.pop() {
+            match self.cell(&cell, may_wait) {
+                Verdict::Settled => {}
+                Verdict::Waits => self.waiting.push(Cell { near: None, looks: 1, ..cell }),
+                Verdict::Halved { axis, best, near, looks } => {
+                    stack.extend(Cell { best, near, looks, ..cell }.halves(self.patch, axis));
+                }
+            }
         }
     }
-}
 
-impl Tile<'_> {
-    /// Looks at a cell; if it must be halved, the axis, and the move that leaves least on it.
-    fn cell(&mut self, bend: &Bend, cell: &Cell) -> Option<(usize, Option<u32>)> {
+    /// What is known to be left somewhere, mm.
+    fn known(&self) -> f64 {
+        self.left.value.max(self.elsewhere.0)
+    }
+
+    /// The highest cusp known, mm.
+    fn ridge(&self) -> f64 {
+        self.cusp.value.max(self.elsewhere.1)
+    }
+
+    fn cell(&mut self, cell: &Cell, may_wait: bool) -> Verdict {
         self.cells += 1;
         let (du, dv) = (cell.u.1 - cell.u.0, cell.v.1 - cell.v.0);
-        let size = bend.size(du, dv);
-        let axis = usize::from(size[1] > size[0]);
-        if size[0].max(size[1]) > 0.25 * self.field.radius {
-            return Some((axis, None));
+        let size = self.bend.size(du, dv);
+        let longest = usize::from(size[1] > size[0]);
+        let halved = |axis, near| Verdict::Halved { axis, best: None, near, looks: cell.looks };
+        if size[longest] > 0.25 * self.field.radius {
+            return halved(longest, None);
         }
         let [Some(a), Some(b), Some(c), Some(d)] = cell.corners else {
             // No normal: a collapsed corner is met by its neighbours.
-            return (size[axis] > SMALLEST).then_some((axis, None));
+            return if size[longest] > SMALLEST { halved(longest, None) } else { Verdict::Settled };
         };
         let corners = [a, b, c, d];
-        let sagitta = bend.sagitta(du, dv);
-        if cell.best.is_some_and(|best| self.is_settled(&corners, sagitta, best)) {
-            return None;
+        let sagitta = self.bend.sagitta(du, dv);
+        if cell.best.is_some_and(|best| self.settles(&corners, sagitta, best).is_ok()) {
+            return Verdict::Settled;
         }
-        let mut near = core::mem::take(&mut self.near);
-        self.field.gather(&corners, &mut near);
-        let best = self.judge(&corners, sagitta, size[axis], &near);
-        self.near = near;
-        best.map(|best| (axis, best))
+        let near = self.field.near(&corners, cell.near, &mut self.lists);
+        let Some(least) = self.judge(&corners, sagitta, near) else { return Verdict::Settled };
+        let across = least.by.iter().any(|i| *i != least.by[0]);
+        let looks = self.field.cusps
+            && across
+            && RIDGED.get(cell.looks).is_some_and(|share| size[longest] < share * self.field.radius);
+        if looks && least.most > self.known().min(self.ridge()) {
+            self.ridges(cell, &corners, &least, near);
+        }
+        if !self.is_open(&corners, (least.most + 2.0 * sagitta, size[longest]), &least) {
+            return Verdict::Settled;
+        }
+        if looks && may_wait && cell.looks == 0 {
+            return Verdict::Waits;
+        }
+        let (best, heights) = least.best.unzip();
+        Verdict::Halved {
+            axis: axis(heights, (size, sagitta), SMALLEST),
+            best,
+            near: Some(near),
+            looks: cell.looks + usize::from(looks),
+        }
     }
 
-    /// Whether one move is known to leave no more on a cell than what is of no interest.
-    fn is_settled(&mut self, corners: &[Corner; 4], sagitta: f64, best: u32) -> bool {
+    /// What a move leaves at the corners of a cell: `Ok` where it is known to leave no more on the whole cell than what is of
+    /// no interest.
+    fn settles(&mut self, corners: &[Corner; 4], sagitta: f64, i: u32) -> Result<(), [f64; 4]> {
         let field = self.field;
-        let known = self.left.value.max(field.floor);
-        let most = if field.cusps { known.min(self.cusp.value) } else { known };
-        let highest = corners.iter().map(|c| field.height(best, c)).fold(f64::NEG_INFINITY, f64::max);
-        let bound = highest + 2.0 * sagitta;
-        let settled = highest <= most && bound <= field.settles(known);
-        if settled {
-            self.bound = self.bound.max(bound);
+        let known = self.known();
+        let heights = corners.map(|corner| field.height(i, &corner));
+        let most = highest(&heights);
+        // Raising a point by dT along its normal moves it into the capsule by more than half of that.
+        let bound = most + 2.0 * sagitta;
+        let low = most <= known && bound <= field.settles(known);
+        if !low || field.cusps && (0..4).any(|k| self.may_be_cusp(&corners[k], heights[k], i)) {
+            return Err(heights);
         }
-        settled
+        self.bound.take(field.worst(bound, i, &corners[0]));
+        Ok(())
     }
 
-    /// `Some` where the cell must be halved, with the move that leaves least on the whole of it.
-    #[allow(clippy::option_option)]
-    fn judge(&mut self, corners: &[Corner; 4], sagitta: f64, size: f64, near: &[u32]) -> Option<Option<u32>> {
-        let field = self.field;
-        let mut bound = f64::INFINITY;
-        let mut best = None;
-        let mut least = [f64::INFINITY; 4];
-        let mut by = [0u32; 4];
-        self.heights.clear();
-        for &i in near {
-            let heights = corners.map(|corner| field.height(i, &corner));
-            for k in 0..4 {
-                if heights[k] < least[k] {
-                    (least[k], by[k]) = (heights[k], i);
+    /// What the moves near a cell leave at its corners; `None` where one of them settles it.
+    fn judge(&mut self, corners: &[Corner; 4], sagitta: f64, near: Near) -> Option<Least> {
+        let mut least = Least { heights: [f64::INFINITY; 4], by: [0; 4], best: None, most: f64::INFINITY };
+        for k in near.first..near.end {
+            let i = self.lists[k].1;
+            let Err(heights) = self.settles(corners, sagitta, i) else { return None };
+            for (k, height) in heights.into_iter().enumerate() {
+                if height < least.heights[k] {
+                    (least.heights[k], least.by[k]) = (height, i);
                 }
             }
-            self.heights.push(heights);
-            let most = heights.into_iter().fold(f64::NEG_INFINITY, f64::max);
-            if most < bound {
-                (bound, best) = (most, Some(i));
+            let most = highest(&heights);
+            if most < least.most {
+                (least.most, least.best) = (most, Some((i, heights)));
             }
         }
-        // Raising a point by dT along its normal moves it into the capsule by more than half of that.
-        let bound = bound + 2.0 * sagitta;
-        for k in 0..4 {
-            self.note((&corners[k], k), least[k], by[k], near);
+        for (k, corner) in corners.iter().enumerate() {
+            self.note(corner, (least.heights[k], least.by[k]), near);
         }
-        let known = self.left.value.max(field.floor);
+        Some(least)
+    }
+
+    /// Whether a cell with this bound and size must be halved; the bound of others is taken into account.
+    fn is_open(&mut self, corners: &[Corner; 4], (bound, size): (f64, f64), least: &Least) -> bool {
+        let field = self.field;
+        let known = self.known();
         let settled = bound <= field.settles(known);
         if settled || size < SMALLEST || self.cells >= MOST_CELLS {
             if settled || bound > known && self.reaches(&corners[0]) {
-                self.bound = self.bound.max(bound.min(field.ceiling));
+                let by = least.best.map_or(u32::MAX, |best| best.0);
+                self.bound.take(field.worst(bound.min(field.ceiling), by, &corners[0]));
             }
-            return None;
+            return false;
         }
         // Where the ball cannot reach there is nothing to refine.
-        let open =
-            bound < f64::INFINITY && least.iter().any(|h| *h < field.ceiling) && self.worth(corners, size);
-        open.then_some(best)
+        bound < f64::INFINITY && least.heights.iter().any(|h| *h < field.ceiling) && self.worth(corners, size)
     }
 
     /// Whether some corner of a larger cell can be reached; small ones are looked at in any case until they settle.
@@ -196,15 +215,55 @@ impl Tile<'_> {
     }
 
     fn reaches(&self, at: &Corner) -> bool {
-        self.field.reaches(self.patch, at)
+        self.field.reaches(self.place, at)
     }
 
-    /// Takes what is left at corner `k` of a cell into account.
-    fn note(&mut self, (at, k): (&Corner, usize), height: f64, by: u32, near: &[u32]) {
+    /// Looks at the ridges that cross the edges of a cell.
+    fn ridges(&mut self, cell: &Cell, corners: &[Corner; 4], least: &Least, near: Near) {
+        const EDGES: [(usize, usize); 4] = [(0, 1), (2, 3), (0, 2), (1, 3)];
+        let at = |k: usize| [[cell.u.0, cell.u.1][k / 2], [cell.v.0, cell.v.1][k % 2]];
+        for (a, b) in EDGES.into_iter().filter(|(a, b)| least.by[*a] != least.by[*b]) {
+            let between = |t: f64| {
+                let (p, q) = (at(a), at(b));
+                Corner::new(self.patch, p[0] + (q[0] - p[0]) * t, p[1] + (q[1] - p[1]) * t)
+            };
+            let higher = |c: &Corner| self.field.height(least.by[a], c) - self.field.height(least.by[b], c);
+            // Regula falsi (Illinois): one move leaves less at one end, the other at the other.
+            let (mut low, mut high) = ((0.0, higher(&corners[a])), (1.0, higher(&corners[b])));
+            let mut found = None;
+            for _ in 0..STEPS {
+                let share = low.1 / (low.1 - high.1);
+                let t =
+                    if share.is_finite() { low.0 + (high.0 - low.0) * share } else { 0.5 * (low.0 + high.0) };
+                let Some(corner) = between(t) else { break };
+                let d = higher(&corner);
+                found = Some(corner);
+                if d > 0.0 {
+                    (high, low.1) = ((t, d), 0.5 * low.1);
+                } else {
+                    (low, high.1) = ((t, d), 0.5 * high.1);
+                }
+            }
+            if let Some(corner) = found {
+                let heights = self.lists[near.first..near.end]
+                    .iter()
+                    .map(|(_, i)| (self.field.height(*i, &corner), *i));
+                let lowest = heights.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::INFINITY, u32::MAX));
+                self.note(&corner, lowest, near);
+            }
+        }
+    }
+
+    /// Takes what is left at a place, and by which move, into account.
+    fn note(&mut self, at: &Corner, (height, by): (f64, u32), near: Near) {
         let field = self.field;
         let value = height.min(field.ceiling);
-        let cusp = field.cusps && value > self.cusp.value && self.may_be_cusp((at, k), near);
-        if value <= self.left.value.max(field.floor) && !cusp {
+        let cusp = field.cusps
+            && value > self.ridge()
+            && self.lists[near.first..near.end]
+                .iter()
+                .all(|(_, i)| self.may_be_cusp(at, field.height(*i, at), *i));
+        if value <= self.known() && !cusp {
             return;
         }
         let worst = |value: f64| field.worst(value, by, at);
@@ -220,26 +279,25 @@ impl Tile<'_> {
         }
     }
 
-    /// Whether more than the highest cusp known would be left at corner `k` of a cell if the path had no deviation of its
-    /// own; yes in doubt, but for rare places.
-    fn may_be_cusp(&self, (at, k): (&Corner, usize), near: &[u32]) -> bool {
-        let enough = self.cusp.value - ABOUT * self.field.out;
-        near.iter().zip(&self.heights).all(|(i, heights)| {
-            let height = heights[k];
-            // The path is no farther off than it may be.
-            height - self.field.out > enough
-                || self.field.capsules.get(*i as usize).is_none_or(|c| {
-                    let off = c.off_at(at.p + at.n * height);
-                    height - off > enough
-                })
-        })
+    /// Whether a move that leaves so much at a place would leave more than the highest cusp known if it had no deviation of
+    /// its own; yes in doubt, but for rare places.
+    fn may_be_cusp(&self, at: &Corner, height: f64, i: u32) -> bool {
+        let enough = self.ridge() - ABOUT * self.field.out;
+        // The path is no farther off than it may be.
+        height - self.field.out > enough
+            || height > enough
+                && self
+                    .field
+                    .capsules
+                    .get(i as usize)
+                    .is_none_or(|c| height - c.off_at(at.p + at.n * height) > enough)
     }
 
-    /// What would be left at a point if the path had no deviation of its own.
-    fn cusp_at(&self, at: &Corner, near: &[u32]) -> f64 {
-        let mut found: Vec<(f64, u32)> = near
+    /// What would be left at a place if the path had no deviation of its own.
+    fn cusp_at(&self, at: &Corner, near: Near) -> f64 {
+        let mut found: Vec<(f64, u32)> = self.lists[near.first..near.end]
             .iter()
-            .map(|i| (self.field.height(*i, at), *i))
+            .map(|(_, i)| (self.field.height(*i, at), *i))
             .filter(|(height, _)| height.is_finite())
             .collect();
         found.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -261,7 +319,7 @@ impl Tile<'_> {
         let along = swept.along;
         let centre = swept.from + along * (q - swept.from).dot(&along).clamp(0.0, swept.length);
         let foot =
-            Foot { patch: self.patch, uv: at.uv, point: at.p, distance: self.field.ball, certain: 0.0 };
+            Foot { patch: self.place, uv: at.uv, point: at.p, distance: self.field.ball, certain: 0.0 };
         // Where the move is not parallel to the surface, it cuts beside the foot: at right angles to the move.
         let foot = self.field.tree.nearby(centre, &foot);
         let offset = foot.point - centre;
@@ -272,4 +330,8 @@ impl Tile<'_> {
         let across = (beside - along * beside.dot(&along)).norm();
         (across - self.field.ball).max(0.0)
     }
+}
+
+fn highest(heights: &[f64; 4]) -> f64 {
+    heights.iter().copied().fold(f64::NEG_INFINITY, f64::max)
 }

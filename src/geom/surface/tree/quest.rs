@@ -71,6 +71,14 @@ impl<'a> Quest<'a> {
                 continue;
             }
             let node = &self.tree.nodes[next as usize];
+            if self
+                .tree
+                .slabs
+                .get(node.slab as usize)
+                .is_some_and(|s| s.distance(self.x) >= self.limit - SAME)
+            {
+                continue;
+            }
             if bound <= self.tree.reach
                 && let Some((patch, area)) = self.tree.sure.get(node.sure as usize)
             {
@@ -108,9 +116,6 @@ impl<'a> Quest<'a> {
     }
 
     fn leaf(&mut self, leaf: &Leaf) {
-        if leaf.slab.distance(self.x) >= self.limit - SAME {
-            return;
-        }
         let own = self.best.patch == leaf.patch;
         let (middle, half) = self.offset(&leaf.hull);
         if !leaf.bend.hessian(middle, half).positive([true, true]) {
