@@ -185,6 +185,9 @@ fn keys_of_the_post_can_be_set_for_one_run() {
     let given = sets.iter().flat_map(|set| ["--post-set", set]);
     let args: Vec<&str> = ["build", "points.apt", "--post", "fanuc"].into_iter().chain(given).collect();
     let output = scratch.run(&args);
+    scratch.write("large.post.toml", format!("inherits = \"fanuc\"\n#{}\n", "x".repeat(1 << 20)));
+    let large = scratch.run(&["post", "check", "large.post.toml"]);
+    assert_eq!((code(&large), stderr(&large).contains("1048576 at most")), (2, true), "{}", stderr(&large));
     for part in ["[words.x] has no key", "[words.y] has no key", "`inherits` cannot be set"] {
         assert!(stderr(&output).contains(part), "{part}: {}", stderr(&output));
     }

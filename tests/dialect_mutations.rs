@@ -1,17 +1,19 @@
 //! One character of a dialect file makes a difference, or a coded refusal: never a panic, never a program that is not proven.
 //!
-//! Every value of every built-in post is changed by one character, and two CL files with all that such files can say are
-//! posted with it. The snapshot lists the values for which no change made a difference: what these programs do not reach.
+//! Every value of every built-in post is changed by one character; two CL files with all that such files can say are
+//! posted with it, where that makes no difference the programs of `tests/data/mutations`, and where these make none either,
+//! the post itself is checked. The snapshot lists the values for which no change made a difference.
 
 mod common;
 
+use std::cell::OnceCell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
 use partwright::diag::Severity;
 use partwright::driver::{self, Options};
-use partwright::post::{builtin_names, builtin_text};
-use partwright::source::MemoryFiles;
+use partwright::post::{builtin_names, builtin_text, lint, load};
+use partwright::source::{MemoryFiles, SourceMap};
 
 const BODY: &str = "\
 COOLNT/ FLOOD
@@ -87,32 +89,82 @@ fn program(unit: &str) -> String {
     )
 }
 
-/// What comes of both programs: the proven texts and the codes of errors; nothing else may come.
+/// What comes of the two programs of CL text.
 fn outcome(post: &str) -> String {
-    let mut all = String::new();
-    for unit in ["MM", "INCH"] {
-        let files = [("p.cls".to_owned(), program(unit)), ("m.post.toml".to_owned(), post.to_owned())];
-        let options = Options {
-            posts: vec!["m.post.toml".to_owned()],
-            is_cl: true,
-            only_nc: true,
-            ..Options::default()
-        };
-        let build = driver::build("p.cls", &MemoryFiles(files.into()), &options);
-        let proven = build.outputs.first().and_then(|o| o.proven.as_ref());
-        let errors: BTreeSet<&str> =
-            build.diagnostics.iter().filter(|d| d.severity == Severity::Error).map(|d| d.code.id).collect();
-        // A text comes exactly where nothing is wrong.
-        assert_eq!(proven.is_some(), errors.is_empty(), "{post}\n{:?}", build.diagnostics);
-        match proven {
-            Some(proven) => all += proven.text(),
-            None => _ = writeln!(all, "{errors:?}"),
-        }
-        if let Some(output) = build.outputs.first() {
-            _ = writeln!(all, "{}", output.extension);
-        }
+    let both = ["MM", "INCH"].map(|unit| (format!("{unit}.cls"), program(unit)));
+    both.iter().map(|(name, text)| outcome_of(name, text, post)).collect()
+}
+
+/// What comes of a program: its proven text or the codes of errors; nothing else may come.
+fn outcome_of(name: &str, text: &str, post: &str) -> String {
+    let files = [(name.to_owned(), text.to_owned()), ("m.post.toml".to_owned(), post.to_owned())];
+    let options = Options {
+        posts: vec!["m.post.toml".to_owned()],
+        is_cl: name.ends_with(".cls"),
+        only_nc: true,
+        ..Options::default()
+    };
+    let build = driver::build(name, &MemoryFiles(files.into()), &options);
+    let proven = build.outputs.first().and_then(|o| o.proven.as_ref());
+    let errors: BTreeSet<&str> =
+        build.diagnostics.iter().filter(|d| d.severity == Severity::Error).map(|d| d.code.id).collect();
+    // A text comes exactly where nothing is wrong.
+    assert_eq!(proven.is_some(), errors.is_empty(), "{name}: {post}\n{:?}", build.diagnostics);
+    let mut all = match proven {
+        Some(proven) => proven.text().to_owned(),
+        None => format!("{errors:?}\n"),
+    };
+    if let Some(output) = build.outputs.first() {
+        _ = writeln!(all, "{}", output.extension);
     }
     all
+}
+
+/// Small programs for what the two long ones do not say, by name.
+fn further() -> Vec<(String, String)> {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/mutations");
+    let entries = std::fs::read_dir(folder).expect("the programs");
+    let mut paths: Vec<_> = entries.map(|e| e.expect("an entry").path()).collect();
+    paths.sort();
+    let read = |path: &std::path::PathBuf| {
+        let name = path.file_name().expect("a name").to_string_lossy().into_owned();
+        (name, std::fs::read_to_string(path).expect("a program"))
+    };
+    paths.iter().map(read).collect()
+}
+
+/// What comes of a changed post, as far as it may differ: programs, and what `post check` says of the post itself.
+struct Before<'a> {
+    text: &'a str,
+    outcome: String,
+    further: Vec<(&'a str, &'a str, String)>,
+    findings: OnceCell<String>,
+}
+
+impl<'a> Before<'a> {
+    fn new(text: &'a str, programs: &'a [(String, String)]) -> Before<'a> {
+        let further = programs
+            .iter()
+            .map(|(name, program)| (name.as_str(), program.as_str(), outcome_of(name, program, text)));
+        Before { text, outcome: outcome(text), further: further.collect(), findings: OnceCell::new() }
+    }
+
+    fn differs(&self, mutant: &str) -> bool {
+        outcome(mutant) != self.outcome
+            || self.further.iter().any(|(name, program, before)| outcome_of(name, program, mutant) != *before)
+            || findings(mutant) != *self.findings.get_or_init(|| findings(self.text))
+    }
+}
+
+/// What is said of a post before any program.
+fn findings(post: &str) -> String {
+    let files = MemoryFiles([("m.post.toml".to_owned(), post.to_owned())].into());
+    let mut sources = SourceMap::default();
+    let found = match load("m.post.toml", &files, &mut sources) {
+        Ok(dialect) => lint(&dialect, &mut sources),
+        Err(errors) => errors,
+    };
+    found.iter().map(|d| format!("{} {}\n", d.code.id, d.message)).collect()
 }
 
 /// The values of a file: where each stands, and its key with its table.
@@ -171,13 +223,16 @@ fn changed(text: &str, value: &std::ops::Range<usize>) -> Vec<String> {
 #[test]
 fn one_character_of_a_dialect_file_makes_a_difference_or_is_refused() {
     let mut silent = String::new();
+    let programs = further();
     for name in builtin_names() {
         let text = builtin_text(name).expect("a built-in post");
-        let plain = outcome(text);
-        assert!(plain.lines().count() > 60, "{name}: {plain}");
+        let before = Before::new(text, &programs);
+        assert!(before.outcome.lines().count() > 60, "{name}: {}", before.outcome);
         let mut keys: BTreeMap<String, bool> = BTreeMap::new();
-        for (value, key) in values(text) {
-            let matters = changed(text, &value).iter().any(|mutant| outcome(mutant) != plain);
+        // For people only: `post list` and `post show` print them.
+        let spoken = |key: &str| ["post.title", "post.basis"].contains(&key);
+        for (value, key) in values(text).into_iter().filter(|(_, key)| !spoken(key)) {
+            let matters = changed(text, &value).iter().any(|mutant| before.differs(mutant));
             *keys.entry(key).or_default() |= matters;
         }
         assert!(keys.len() > 5 || text.len() < 900, "{name}: {keys:?}");

@@ -438,7 +438,8 @@ fn cycle_word(kind: CycleKind) -> &'static str {
         CycleKind::ChipBreak => "BRKCHP",
         CycleKind::Tap { .. } => "TAP",
         CycleKind::Bore | CycleKind::BoreDwell => "REAM",
-        CycleKind::BoreStop | CycleKind::BoreOrient { .. } => "BORE",
+        CycleKind::BoreStop => "BORE, DRAG",
+        CycleKind::BoreOrient { .. } => "BORE",
     }
 }
 

@@ -195,6 +195,7 @@ impl Reader<'_> {
                 let shift = shift.ok_or("the cycle has no distance to move off the wall: ORIENT")?;
                 CycleKind::BoreOrient { shift: shift * self.state.scale }
             }
+            (Action::Bore, _) if s.has("DRAG") => CycleKind::BoreStop,
             (Action::Bore | Action::Ream, Some(_)) => CycleKind::BoreDwell,
             (Action::Bore | Action::Ream, None) => CycleKind::Bore,
         })

@@ -180,3 +180,19 @@ fn texts_of_programs_go_to_the_shelf_as_they_are_proven() {
         assert!(index == 1 || text(staged).is_empty());
     }
 }
+
+#[test]
+fn a_post_may_end_its_lines_and_count_its_pecks() {
+    let post = "inherits = \"fanuc\"\n[post]\ncontrol = \"fanuc line-end=* cycle-pecks=J\"\n[line]\nend = \"*\"\n\
+        [cycles.deep]\nwords = \"Z{{ cycle.z }} R{{ cycle.r }} J{{ cycle.pecks }} F{{ cycle.feed }}\"\n";
+    let source = "PARTNO A * B\nLOADTL/1\nSPINDL/900,CLW\nFEDRAT/100,MMPM\nRAPID\nGOTO/0,0,20\n\
+        CYCLE/DEEP,FEDTO,10,STEP,2.5,RAPTO,1,MMPM,80\nGOTO/5,0,0\nGOTO/9,0,0\nCYCLE/OFF\nFINI\n";
+    let files = [("a.cls".to_owned(), source.to_owned()), ("m.post.toml".to_owned(), post.to_owned())];
+    let options = Options { posts: vec!["m.post.toml".to_owned()], ..Options::default() };
+    let build = build("a.cls", &MemoryFiles(files.into()), &options);
+    let proven = build.outputs.first().and_then(|o| o.proven.as_ref());
+    let text = proven.unwrap_or_else(|| panic!("{:?}", build.diagnostics)).text();
+    assert!(text.lines().all(|line| line == "%" || line.ends_with('*')), "{text}");
+    // Eleven millimetres in pecks of 2.5 at most.
+    assert!(text.contains("Z-10. R1. J5 F80.*"), "{text}");
+}

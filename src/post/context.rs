@@ -57,6 +57,8 @@ pub(super) struct CycleContext {
     pub clearance: String,
     pub above: String,
     pub peck: String,
+    /// Number of equal pecks.
+    pub pecks: String,
     pub shift: String,
     pub pitch: String,
     /// In the unit of `cycle-dwell`.

@@ -107,6 +107,9 @@ impl Events<'_> {
             clearance: spelled(cycle.clearance - cycle.surface, &distance),
             above: spelled(cycle.initial - cycle.surface, &distance),
             peck: optional(peck),
+            pecks: peck
+                .filter(|p| *p > 0)
+                .map_or_else(String::new, |p| ((whole + p - 1) / p).max(1).to_string()),
             shift: optional(shift),
             pitch: optional(pitch),
             dwell: dwell.map_or_else(String::new, |steps| spelled(steps, &dwell_style)),

@@ -25,6 +25,17 @@ const BUILTIN: &[(&str, &str)] = &[
     ("sinumerik", include_str!("dialects/sinumerik.post.toml")),
 ];
 
+/// The largest post file, bytes.
+const LARGEST: usize = 1 << 20;
+
+fn too_large(name: &str, bytes: usize, at: Option<Span>) -> Diagnostic {
+    let message = format!("the post file {name} has {bytes} bytes; a post has {LARGEST} at most");
+    match at {
+        Some(span) => Diagnostic::new(&codes::command::TOO_LARGE, span, message),
+        None => Diagnostic::global(&codes::command::TOO_LARGE, message),
+    }
+}
+
 /// Longest chain of `inherits`.
 const MAX_DEPTH: usize = 8;
 
@@ -165,6 +176,9 @@ impl Loader<'_> {
         }
         let (display, text) =
             self.files.read(from, name).map_err(|error| vec![unreadable(name, &error, at)])?;
+        if text.len() > LARGEST {
+            return Err(vec![too_large(&display, text.len(), at)]);
+        }
         if self.chain.contains(&display) || self.chain.len() >= MAX_DEPTH {
             return Err(vec![self.cycle(&display, at)]);
         }

@@ -133,6 +133,7 @@ const LINE: &[Key] = &[
         Shape::Text,
         "at the end of a line: the block goes on in the next one, which gets no number; empty: there is none",
     ),
+    key("end", Shape::Text, "at the end of every line but a lone `%` and those that go on; empty: nothing"),
 ];
 const NUMBERING: &[Key] = &[
     key(

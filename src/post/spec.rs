@@ -110,6 +110,8 @@ pub struct Line {
     pub count_spaces: bool,
     pub separator: String,
     pub continuation: String,
+    #[serde(default)]
+    pub end: String,
 }
 
 /// Which lines carry a number.

@@ -65,6 +65,7 @@ pub(super) struct MotionTable {
     pub newline: &'static [u8],
     pub numbering: NumberingMode,
     pub continuation: Box<[u8]>,
+    pub ending: Box<[u8]>,
 }
 
 impl MotionTable {
@@ -109,6 +110,7 @@ impl MotionTable {
             newline: if spec.file.newline == "crlf" { b"\r\n" } else { b"\n" },
             numbering: spec.numbering.mode,
             continuation: bytes(&spec.line.continuation),
+            ending: bytes(&spec.line.end),
         }
     }
 }

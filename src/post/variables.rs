@@ -90,6 +90,11 @@ pub const VARIABLES: &[Variable] = &[
     row(Cycle, "cycle.clearance", "surface to clearance level"),
     row(Cycle, "cycle.above", "surface to the height at which the cycle begins"),
     row(Cycle, "cycle.peck", "largest depth of one peck; empty without one"),
+    row(
+        Cycle,
+        "cycle.pecks",
+        "number of equal pecks from `cycle.r` to `cycle.z`, none deeper than `cycle.peck`; empty without one",
+    ),
     row(Cycle, "cycle.shift", "move off the wall of an oriented boring cycle; empty in others"),
     row(Cycle, "cycle.pitch", "pitch of a thread; empty in other cycles"),
     row(Cycle, "cycle.dwell", "dwell at the bottom, in the unit of `[cycle-dwell]`; empty without one"),

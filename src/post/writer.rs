@@ -158,10 +158,13 @@ impl<'a> Writer<'a> {
             self.take_back();
             return;
         }
+        self.continued = !self.table.continuation.is_empty() && self.out.ends_with(&self.table.continuation);
+        if !self.table.ending.is_empty() && !self.continued && self.out.get(self.line_start..) != Some(b"%") {
+            self.out.extend_from_slice(&self.table.ending);
+        }
         if self.out.len() - self.line_start > self.limit {
             self.check_length();
         }
-        self.continued = !self.table.continuation.is_empty() && self.out.ends_with(&self.table.continuation);
         self.out.extend_from_slice(self.table.newline);
         self.line += 1;
     }

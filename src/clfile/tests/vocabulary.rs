@@ -49,7 +49,13 @@ const EXAMPLES: &[(&str, &[&str])] = &[
     ),
     (
         "COOLNT",
-        &["COOLNT/ ON", "COOLNT/ FLOOD\nCOOLNT/ OFF", "COOLNT/ MIST\nGOTO/ 1, 1, 1\nCOOLNT/ OFF", "COOLNT"],
+        &[
+            "COOLNT/ ON",
+            "COOLNT/ FLOOD\nCOOLNT/ OFF",
+            "COOLNT/ MIST\nGOTO/ 1, 1, 1\nCOOLNT/ OFF",
+            "COOLNT/ THRU\nGOTO/ 1, 1, 1\nCOOLNT/ OFF",
+            "COOLNT",
+        ],
     ),
     (
         "CYCLE",
@@ -87,6 +93,7 @@ const EXAMPLES: &[(&str, &[&str])] = &[
             "CYCLE/ TAP, RIGID, SYNC, FEDTO, 12, MMPM, 1500, RAPTO, 2, RPM\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
             "CYCLE/ DRILL, TAP, ON, TOOL, FEDTO, 12, MMPR, 1, RAPTO, 2\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
             "CYCLE/ BORE, DRAG, FEDTO, 12, MMPM, 60, RAPTO, 2\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
+            "CYCLE/ BORE, FEDTO, 12, MMPM, 60, RAPTO, 2\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
             "CYCLE/ BORE, NODRAG, 0.5, FEDTO, 12, MMPM, 60, RAPTO, 2\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
             "CYCLE/ BORE, ORIENT, 0.5, FEDTO, 12, MMPM, 60, RAPTO, 2\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
             "CYCLE/ REAM, FEDTO, 12, MMPM, 60, RAPTO, 2, DWELL, 1\nGOTO/ 1, 1, 0\nCYCLE/ OFF",

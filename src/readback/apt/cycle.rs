@@ -60,7 +60,9 @@ impl Reader<'_> {
             "BRKCHP" => Kind::BreakChip,
             "TAP" => Kind::Tap,
             "REAM" => Kind::Ream,
-            "BORE" => Kind::Bore,
+            // The tool is dragged out with the spindle stopped, or moved off the wall first; else out at feed.
+            "BORE" if words.iter().any(|w| ["DRAG", "ORIENT"].contains(w)) => Kind::Bore,
+            "BORE" => Kind::Ream,
             other => return out.fault(format!("CYCLE/{other} is not followed by this reader")),
         };
         let mut cycle = Cycle { kind, ..Cycle::default() };
@@ -93,6 +95,7 @@ impl Reader<'_> {
         match word {
             "CLW" => return cycle.left = false,
             "CCLW" => return cycle.left = true,
+            "DRAG" => return,
             "RETURN" => {
                 cycle.initial = (rest.next() != Some("OFF")).then_some(self.at.z);
                 return;

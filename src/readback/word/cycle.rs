@@ -150,7 +150,8 @@ impl Machine<'_> {
         let incremental = self.state.incremental == Some(true);
         let (r, z) = (self.length(block, cycles.level), self.length(block, cycles.bottom));
         let after = cycles.after.and_then(|letter| self.length(block, letter));
-        let q = self.length(block, cycles.peck);
+        let counted = cycles.pecks_counted;
+        let q = if counted { block.get(cycles.peck) } else { self.length(block, cycles.peck) };
         let speed = self.state.speed;
         let letter = cycles.dwell_word;
         let p = block.get(letter).and_then(|p| cycles.dwell.seconds(p, block.point(letter), speed));
@@ -218,8 +219,15 @@ impl Machine<'_> {
             out.fault(format!("a peck drilling cycle without {}", self.rules.address(cycles.peck)));
             return None;
         };
+        let name = self.rules.address(cycles.peck);
+        if cycles.pecks_counted {
+            let whole = (1.0..=MOST_PECKS).contains(&q) && q.fract() == 0.0;
+            if !whole {
+                out.fault(format!("{q} pecks of {name}"));
+            }
+            return whole.then_some(Some(depth / q));
+        }
         if q <= 0.0 || depth / q > MOST_PECKS {
-            let name = self.rules.address(cycles.peck);
             out.fault(format!("a peck of {name}{} {}", q / self.unit(), self.unit_name()));
             return None;
         }

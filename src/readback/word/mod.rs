@@ -62,6 +62,7 @@ impl<'a> Reader<'a> {
             rules::Language::Iso => block::read,
             rules::Language::Sinumerik => sinumerik::read,
         };
+        let line = if rules.line_end == 0 { line } else { without_end(line, rules.line_end, out) };
         read(line, rules, &mut self.block, &mut |message| out.fault(message));
         if !self.renamed.is_empty() {
             self.block.rename(&self.renamed, &mut |message| out.fault(message));
@@ -76,4 +77,21 @@ impl<'a> Reader<'a> {
     pub(super) fn finish<S: Follow>(&mut self, out: &mut Out<'_, S>) {
         self.machine.end_of_text(out);
     }
+}
+
+/// The line up to the character that ends it.
+fn without_end<'l, S: Follow>(line: &'l [u8], end: u8, out: &mut Out<'_, S>) -> &'l [u8] {
+    let name = char::from(end);
+    let body = line.trim_ascii_end();
+    if body.is_empty() || body == b"%" {
+        return line;
+    }
+    let Some(body) = body.strip_suffix(&[end]) else {
+        out.fault(format!("the line does not end with `{name}`"));
+        return line;
+    };
+    if body.contains(&end) {
+        out.fault(format!("`{name}` ends the block before the end of its line"));
+    }
+    body
 }

@@ -101,8 +101,10 @@ pub(in crate::readback) struct Cycles {
     pub bottom: u8,
     /// Word of the height to which the tool goes after a hole, where there is one.
     pub after: Option<u8>,
-    /// Word of the depth of a peck.
+    /// Word of the depth of a peck, or of their number.
     pub peck: u8,
+    /// That word is the number of equal pecks between the height where feed begins and the bottom.
+    pub pecks_counted: bool,
     /// Word of the dwell, and its unit.
     pub dwell_word: u8,
     /// Unit of the dwell word.
@@ -175,6 +177,8 @@ pub(in crate::readback) struct Rules {
     pub slash_anywhere: bool,
     /// A checksum `*nn` may close a numbered line.
     pub checksum: bool,
+    /// Character that ends every line but a lone `%`, 0 for none.
+    pub line_end: u8,
     /// Longest block, if there is a limit.
     pub line_limit: Option<usize>,
     /// The limit counts comments and blanks too.

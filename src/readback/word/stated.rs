@@ -28,7 +28,7 @@ const fn row(name: &'static str, values: &'static str, doc: &'static str, set: S
 const WORD: &str = "an address";
 
 /// All statements but those of codes.
-const STATEMENTS: [(Statement, Set); 25] = [
+const STATEMENTS: [(Statement, Set); 27] = [
     row(
         "frame",
         "`number`, `percent-number`, `percent-name`, `percent`, `name`, `end`, `free`",
@@ -48,6 +48,7 @@ const STATEMENTS: [(Statement, Set); 25] = [
             )
         },
     ),
+    row("line-end", "a character", "ends every line but a lone `%`, and stands nowhere else in it", line_end),
     row("line", "a number", "longest line in characters, 0 without limit", line),
     row("most-m", "a number", "M codes in a block", most_m),
     row("motion", "`modal`, `repeated`", "whether motion codes stay in force", |r, v| {
@@ -101,6 +102,15 @@ const STATEMENTS: [(Statement, Set); 25] = [
         cycle_after,
     ),
     row("cycle-peck", WORD, "word of the depth of a peck", |r, v| cycle_word(r, v, |c| &mut c.peck)),
+    row(
+        "cycle-pecks",
+        WORD,
+        "word of the number of equal pecks, from the height where feed begins to the bottom, in place of their depth",
+        |r, v| {
+            cycle_word(r, v, |c| &mut c.peck)?;
+            cycles(r).map(|c| c.pecks_counted = true)
+        },
+    ),
     row("cycle-dwell", "ADDRESS:UNIT", "word of the dwell in drilling cycles", cycle_dwell),
     row("cycle-repeat", "an address, `none`", "word that repeats a hole", cycle_repeat),
     row(
@@ -257,6 +267,16 @@ fn comments(rules: &mut Rules, value: &str) -> Result<(), String> {
         [("()", (true, false)), (";", (false, true)), ("();", (true, true)), ("none", (false, false))];
     (rules.parentheses, rules.semicolon_comment) = choice(value, &table)?;
     Ok(())
+}
+
+fn line_end(rules: &mut Rules, value: &str) -> Result<(), String> {
+    match *value.as_bytes() {
+        [end] if end.is_ascii_punctuation() && !b"%+-.=()".contains(&end) => {
+            rules.line_end = end;
+            Ok(())
+        }
+        _ => Err("it takes one character that no word holds, as `*` or `;`".to_owned()),
+    }
 }
 
 fn line(rules: &mut Rules, value: &str) -> Result<(), String> {

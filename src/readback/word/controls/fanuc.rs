@@ -22,6 +22,7 @@ pub(in crate::readback::word) const RULES: Rules = Rules {
     lower_case: false,
     slash_anywhere: false,
     checksum: false,
+    line_end: 0,
     line_limit: None,
     limit_counts_all: true,
     addresses: [[0; 4]; 6],
@@ -77,6 +78,7 @@ pub(in crate::readback::word) const CYCLES: Cycles = Cycles {
     bottom: b'Z',
     after: None,
     peck: b'Q',
+    pecks_counted: false,
     dwell_word: b'P',
     dwell: Dwell::Milliseconds,
     with_dwell: &[

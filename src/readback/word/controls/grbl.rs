@@ -20,6 +20,7 @@ pub(super) const RULES: Rules = Rules {
     lower_case: true,
     slash_anywhere: true,
     checksum: false,
+    line_end: 0,
     line_limit: Some(79),
     limit_counts_all: false,
     addresses: [[0; 4]; 6],

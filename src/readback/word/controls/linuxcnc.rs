@@ -30,6 +30,7 @@ pub(super) const RULES: Rules = Rules {
     lower_case: true,
     slash_anywhere: false,
     checksum: false,
+    line_end: 0,
     line_limit: Some(255),
     limit_counts_all: true,
     addresses: [[0; 4]; 6],
@@ -86,6 +87,7 @@ pub(super) const CYCLES: Cycles = Cycles {
     bottom: b'Z',
     after: None,
     peck: b'Q',
+    pecks_counted: false,
     dwell_word: b'P',
     dwell: Dwell::Seconds,
     with_dwell: &[

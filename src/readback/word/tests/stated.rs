@@ -147,3 +147,29 @@ fn what_means_nothing_is_refused_with_its_reason() {
     assert!(error.contains("the control grbl has no drilling cycles"), "{error}");
     assert!(run(b"", "heidenhain dwell=K:s", &setup()).is_err());
 }
+
+#[test]
+fn pecks_may_be_counted() {
+    let holes = |peck: &str| format!("G0 X0 Y0 Z20\nG98 G83 X5 Y5 Z-4 R2 {peck} F50\nX9\nG80");
+    same("cycle-pecks=J", &holes("J6"), &holes("Q1"));
+    refused("cycle-pecks=J", &holes("J0.5"), "0.5 pecks of J");
+    refused("cycle-pecks=J", &holes("J0"), "0 pecks of J");
+    refused("cycle-pecks=J", &holes("Q1"), "a peck drilling cycle without J");
+}
+
+#[test]
+fn a_character_may_end_every_line() {
+    let text =
+        "%\nO12\nG21 G90 G94 G17 G40 G49 G61 G54\nT1 M6\nG43 H1\nS1000 M3\nG0 X0 Y0 Z5\nG1 X1 F100\nM2\n%\n";
+    let ended = text.replace('\n', "*\n").replace("%*", "%");
+    let faults = |text: &str| {
+        let trace = trace("linuxcnc frame=percent-number line-end=*", text);
+        trace.faults.into_iter().map(|f| f.message).collect::<Vec<_>>()
+    };
+    assert_eq!(faults(&ended), [""; 0]);
+    assert!(faults(&ended.replace("M6*", "M6")).iter().any(|f| f.contains("does not end with `*`")));
+    assert!(faults(&ended.replace("T1 M6", "T1*M6")).iter().any(|f| f.contains("ends the block before")));
+    for wrong in ["line-end=%", "line-end=**", "line-end=A", "line-end="] {
+        assert!(crate::readback::needs(&format!("linuxcnc {wrong}")).is_err(), "{wrong}");
+    }
+}
