@@ -36,10 +36,12 @@ fn a_controller_written_in_one_file_makes_proven_programs() {
 }
 
 /// Posts of controls that are not built in, or not so, by their files; all but the last are for people to look at.
-const POSTS: [&str; 7] = [
+const POSTS: [&str; 9] = [
     "examples/posts/fagor.post.toml",
+    "examples/posts/grblhal_g5.post.toml",
     "examples/posts/itnc530.post.toml",
     "examples/posts/linuxcnc_g5.post.toml",
+    "examples/posts/marlin_g5.post.toml",
     "examples/posts/num.post.toml",
     "examples/posts/sinumerik_cip.post.toml",
     "examples/posts/sinumerik_poly.post.toml",
@@ -109,8 +111,11 @@ fn curves_of_cl_files_become_pieces() {
     let options = Options { posts: posts.to_vec(), is_cl: true, ..Options::default() };
     let build = driver::build("tests/cl/nx_curves.clsf", &Directory(root().to_path_buf()), &options);
     let said: Vec<(&str, &str)> = build.diagnostics.iter().map(|d| (d.code.id, d.message.as_str())).collect();
-    let climbs = "1 curve (NURBS) is cut by 51 lines, at most 0.0094 mm off: `linuxcnc_g5` has curves in the XY plane only, and their height changes";
-    assert_eq!(said, [("N1013", climbs)]);
+    // One note for its place, whichever of the posts without curves in space made it.
+    let [(code, message)] = *said else { panic!("{said:#?}") };
+    assert!(
+        code == "N1013" && message.ends_with("has curves in the XY plane only, and their height changes")
+    );
     for output in &build.outputs {
         let proven = output.proven.as_ref().expect("proven");
         insta::assert_snapshot!(format!("nx_curves.clsf.{}", output.post), proven.text());

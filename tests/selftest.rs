@@ -116,3 +116,26 @@ fn a_template_that_fails_is_a_wrong_row_and_not_the_end() {
     assert!(wrong(&found).contains(&"a contour at two depths"), "{}", print::text(&found));
     assert!(!wrong(&found).contains(&"full circle"));
 }
+
+/// Posts whose curves are pieces: the row of curves is right where the control cuts them, and arcs where it cuts chords.
+#[test]
+fn posts_with_pieces_have_their_curves() {
+    let right = [
+        ("itnc530.post.toml", include_str!("../examples/posts/itnc530.post.toml")),
+        ("linuxcnc_g5.post.toml", include_str!("../examples/posts/linuxcnc_g5.post.toml")),
+        ("sinumerik_poly.post.toml", include_str!("../examples/posts/sinumerik_poly.post.toml")),
+    ];
+    let chords = [
+        ("grblhal_g5.post.toml", include_str!("../examples/posts/grblhal_g5.post.toml")),
+        ("marlin_g5.post.toml", include_str!("../examples/posts/marlin_g5.post.toml")),
+    ];
+    let right = right.map(|post| (post, Verdict::Right, "NURBS in"));
+    for ((name, text), verdict, remark) in
+        right.into_iter().chain(chords.map(|post| (post, Verdict::Expressed, "arcs")))
+    {
+        let matrix = matrix(name, text);
+        assert!(matrix.passed(), "{name}: {:?}", wrong(&matrix));
+        let row = matrix.rows.iter().find(|r| r.title == "NURBS round a part").expect("the row");
+        assert!(row.verdict == verdict && row.remark.contains(remark), "{name}: {row:#?}");
+    }
+}

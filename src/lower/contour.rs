@@ -168,10 +168,13 @@ fn legal(contour: &Contour, capabilities: &Capabilities, demotions: &mut Vec<Dem
             ));
             Interpolation::Auto
         }
-        Interpolation::Nurbs if capabilities.nurbs.is_none() => {
+        Interpolation::Nurbs if !capabilities.fits_curves() => {
             demotions.push((
                 &codes::lowering::NO_NURBS,
-                format!("`{name}` has no NURBS; the path is made of {round}"),
+                match capabilities.nurbs {
+                    None => format!("`{name}` has no NURBS; the path is made of {round}"),
+                    Some(_) => format!("`{name}` cuts chords of curves; the path is made of {round}"),
+                },
             ));
             Interpolation::Auto
         }
@@ -216,7 +219,7 @@ fn fit_as(
 fn knots(capabilities: &Capabilities) -> fit::Knots {
     match capabilities.nurbs {
         Some(NurbsForm::G062 { knot_decimals }) => fit::Knots::Printed { decimals: u32::from(knot_decimals) },
-        Some(NurbsForm::Pieces { finer }) => fit::Knots::Pieces { finer },
+        Some(NurbsForm::Pieces { finer, .. }) => fit::Knots::Pieces { finer },
         Some(NurbsForm::G052) | None => fit::Knots::Uniform,
     }
 }
@@ -255,7 +258,7 @@ fn candidates(contour: &Contour, capabilities: &Capabilities) -> Vec<Interpolati
         (Interpolation::Circular, capabilities.arcs),
         (Interpolation::Linear, !(capabilities.arcs && round)),
         (Interpolation::RTheta, !exact && polar_possible(contour, capabilities)),
-        (Interpolation::Nurbs, !exact && capabilities.nurbs.is_some()),
+        (Interpolation::Nurbs, !exact && capabilities.fits_curves()),
     ]
     .into_iter()
     .filter_map(|(kind, possible)| possible.then_some(kind))

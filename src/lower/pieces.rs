@@ -52,6 +52,13 @@ pub(super) fn fits(piece: &Nurbs, largest: i64) -> bool {
     all.iter().flatten().all(|v| v.abs() <= i128::from(largest))
 }
 
+/// Upper bound of the distance of a segment from its chords over `step` of the parameter, mm: an eighth of the square of the
+/// step times the largest second derivative.
+pub(super) fn sagitta([a, b, c, d]: &[Point3; ORDER], step: f64) -> f64 {
+    let bend = |p: &Point3, q: &Point3, r: &Point3| ((p - q) + (r - q)).norm();
+    step * step / 8.0 * 6.0 * bend(a, b, c).max(bend(b, c, d))
+}
+
 /// The two halves of a segment, by de Casteljau's scheme.
 pub(super) fn halves([a, b, c, d]: [Point3; ORDER]) -> [[Point3; ORDER]; 2] {
     let mid = |p: Point3, q: Point3| p + (q - p) * 0.5;

@@ -17,6 +17,8 @@ use crate::target::{FeedWord, Motion, Nurbs, NurbsForm, Position, power_of_ten};
 const DEEPEST: u32 = 16;
 /// Steps of the grid that a curve may always be off, however small its tolerance.
 const LEAST_STEPS: f64 = 2.0;
+/// Share of the tolerance that chords of a control may take; the rest is for the bounds of the proof.
+const CHORDS: f64 = 0.9;
 /// Relative difference of knot intervals that may be taken for equidistant; what that does to the curve is measured.
 const EQUIDISTANT: f64 = 1e-3;
 
@@ -81,7 +83,7 @@ impl Emitter<'_> {
         let whole = match form {
             NurbsForm::G062 { knot_decimals } => printed(spline.knots(), length(spline), knot_decimals),
             NurbsForm::G052 => equidistant(spline.knots()),
-            NurbsForm::Pieces { finer } => return self.pieces(spline, points, finer),
+            NurbsForm::Pieces { finer, chord } => return self.pieces(spline, points, finer, chord),
         };
         if let Some(knots) = whole {
             let curve = nurbs(points, knots);
@@ -109,8 +111,15 @@ impl Emitter<'_> {
         Ok(curves)
     }
 
-    /// One piece for each Bézier segment, or more where its coefficients would be too large for their words.
-    fn pieces(&mut self, spline: &Spline, points: &[Position], finer: u8) -> Result<Vec<Nurbs>, Reason> {
+    /// One piece for each Bézier segment, or more where its coefficients would be too large for their words, or chords of it
+    /// too far off.
+    fn pieces(
+        &mut self,
+        spline: &Spline,
+        points: &[Position],
+        finer: u8,
+        chord: f64,
+    ) -> Result<Vec<Nurbs>, Reason> {
         let limit = self.for_curve(spline);
         let mut curves = Vec::new();
         let mut from = points.first().copied().unwrap_or_default();
@@ -123,16 +132,16 @@ impl Emitter<'_> {
             let step = self.capabilities.grid.linear_step();
             let points = pieces::rounded(&segment, ends, step, finer).ok_or(Reason::Rounding)?;
             let curve = pieces::nurbs(points, to.r, finer);
-            if !pieces::fits(&curve, self.capabilities.ranges.coefficient) {
-                if depth >= DEEPEST {
-                    return Err(Reason::Rounding);
-                }
+            let off = self.off(core::iter::once(segment), &curve).ok_or(Reason::Rounding)?;
+            let cut = off + pieces::sagitta(&segment, chord);
+            let fits = pieces::fits(&curve, self.capabilities.ranges.coefficient);
+            if off > limit || depth >= DEEPEST {
+                return Err(Reason::Rounding);
+            }
+            if !fits || cut > CHORDS * limit {
                 let [left, right] = pieces::halves(segment);
                 parts.extend([(right, depth + 1), (left, depth + 1)]);
                 continue;
-            }
-            if self.off(core::iter::once(segment), &curve).is_none_or(|off| off > limit) {
-                return Err(Reason::Rounding);
             }
             from = to;
             curves.push(curve);

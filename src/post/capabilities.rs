@@ -57,7 +57,7 @@ impl Dialect {
             nurbs: match spec.nurbs.knots.as_str() {
                 "printed" => Some(NurbsForm::G062 { knot_decimals: spec.nurbs.knot_decimals }),
                 "uniform" => Some(NurbsForm::G052),
-                "pieces" => Some(NurbsForm::Pieces { finer: self.finer(unit) }),
+                "pieces" => Some(NurbsForm::Pieces { finer: self.finer(unit), chord: spec.nurbs.chord }),
                 _ => None,
             },
             nurbs_in_space: spec.nurbs.point.iter().any(|item| item == "z" || item.ends_with("-z")),

@@ -377,6 +377,11 @@ const NURBS: &[Key] = &[
     key("weight-decimals", Shape::Integer(0, 9), "decimals of weights"),
     key("knot-decimals", Shape::Integer(0, 9), "decimals of knots"),
     key("max-order", Shape::Integer(2, 6), "largest degree + 1"),
+    key(
+        "chord",
+        Shape::Number(0.0, 1.0),
+        "largest step, as a part of a piece's parameter, of the chords that the control cuts in the place of `pieces`; 0: it cuts the pieces themselves",
+    ),
 ];
 const LIMITS: &[Key] = &[
     key("x", Shape::Range, "travel of X in program coordinates, mm"),

@@ -434,6 +434,8 @@ pub struct Nurbs {
     pub weight_decimals: u8,
     pub knot_decimals: u8,
     pub max_order: u8,
+    #[serde(default)]
+    pub chord: f64,
 }
 
 #[derive(Debug, Clone, Default, Deserialize)]

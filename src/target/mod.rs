@@ -157,6 +157,16 @@ impl Capabilities {
         if self.by_middle(plane) { FullCircle::Split(2) } else { self.full_circle }
     }
 
+    /// Whether curves are fitted to contours: the control has some and cuts them as such.
+    #[must_use]
+    pub fn fits_curves(&self) -> bool {
+        match self.nurbs {
+            None => false,
+            Some(NurbsForm::Pieces { chord, .. }) => chord <= 0.0,
+            Some(NurbsForm::G062 { .. } | NurbsForm::G052) => true,
+        }
+    }
+
     /// Whether arcs of a plane are told by a place between their ends.
     #[must_use]
     pub fn by_middle(&self, plane: Plane) -> bool {

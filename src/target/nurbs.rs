@@ -3,7 +3,7 @@
 use super::Position;
 
 /// NURBS output of a control.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum NurbsForm {
     /// Fanuc `G06.2 P K X Y Z R`.
     G062 {
@@ -17,6 +17,8 @@ pub enum NurbsForm {
     Pieces {
         /// Decimals of coefficients beyond those of linear words.
         finer: u8,
+        /// Largest step in the parameter (0…1) of the chords that are cut in the place of a piece; 0: the piece itself is.
+        chord: f64,
     },
 }
 
@@ -25,7 +27,7 @@ impl NurbsForm {
     #[must_use]
     pub fn finer(self) -> u8 {
         match self {
-            NurbsForm::Pieces { finer } => finer,
+            NurbsForm::Pieces { finer, .. } => finer,
             NurbsForm::G062 { .. } | NurbsForm::G052 => 0,
         }
     }

@@ -5,6 +5,7 @@
 
 use super::CONTROLS;
 use super::block::bit;
+use super::cubic::Cubic;
 use super::renamed::{self, Renamed};
 use super::rules::{ADDRESS, ADDRESSES, Cycles, Dwell, Frame, LETTERS, Language, Rules, Unpointed};
 
@@ -28,7 +29,7 @@ const fn row(name: &'static str, values: &'static str, doc: &'static str, set: S
 const WORD: &str = "an address";
 
 /// All statements but those of codes.
-const STATEMENTS: [(Statement, Set); 27] = [
+const STATEMENTS: [(Statement, Set); 28] = [
     row(
         "frame",
         "`number`, `percent-number`, `percent-name`, `percent`, `name`, `end`, `free`",
@@ -91,6 +92,14 @@ const STATEMENTS: [(Statement, Set); 27] = [
     row("arc-end", "`needed`, `bare`", "whether every arc needs an end word in its plane", |r, v| {
         put(v, &mut r.arc_needs_end, &[("needed", true), ("bare", false)])
     }),
+    row(
+        "splines",
+        "`none`, `exact`, `chords`",
+        "whether G5 with I J P Q is a cubic piece, and what is cut of it: the piece, or chords as Marlin's BEZIER_CURVE_SUPPORT makes them",
+        |r, v| {
+            put(v, &mut r.cubic, &[("none", Cubic::None), ("exact", Cubic::Exact), ("chords", Cubic::Chords)])
+        },
+    ),
     row("cycle-level", WORD, "word of the height where feed begins in drilling cycles", |r, v| {
         cycle_word(r, v, |c| &mut c.level)
     }),

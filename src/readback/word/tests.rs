@@ -269,6 +269,14 @@ fn pieces_of_g5_go_by_the_ways_to_their_inner_points() {
     assert_eq!(c, [(20.0, 0.0), (21.0, 0.0), (21.0, 1.0), (21.0, 2.0)]);
     let last = (moves[6].start().xy(), moves[3].feed);
     assert_eq!(last, (Point2::new(21.0, 2.0), Some(100.0)));
+    // Firmware cuts chords of the same piece; the stock one has none.
+    let start = "G17 G21 G90\nG1 X0 Y0 Z0 F100\n";
+    let piece = format!("{start}G5 X3 Y0 I1 J0.5 P-1 Q0.5\n");
+    let made = |control: &str| run(piece.as_bytes(), control, &setup()).expect("known");
+    let ends: Vec<f64> = moves_of(made("marlin splines=chords")).iter().skip(1).map(|m| m.end().x).collect();
+    assert!(ends.len() == 5 && close(ends[0], 0.6) && close(ends[4], 3.0), "{ends:?}");
+    assert!(made("marlin").faults.iter().any(|f| f.message.contains("G5 is not followed")));
+    assert!(made("grbl").faults.iter().any(|f| f.message.contains("G5")));
     for (body, words) in [
         ("G5 X1 Y1 P1 Q1", "needs I and J"),
         ("G5 X1 Y1 I1 J1 P1 Q1\nG1 X2\nG5 X3 P1 Q1", "needs I and J"),

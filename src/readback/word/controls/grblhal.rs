@@ -1,13 +1,21 @@
 //! grblHAL, from its list of supported codes: Grbl with cycles, turns in arcs and tools.
 
 use super::super::codes::{CycleKind, G, Group, M};
+use super::super::cubic::Cubic;
 use super::super::iso;
 use super::super::rules::{Cycles, Dwell, Rules};
 use super::{grbl, linuxcnc};
 
 /// Tool tables are an option of the build, so that cuts need neither M6 nor G43.
-pub(super) const RULES: Rules =
-    Rules { name: "grblhal", g, m, cycles: Some(CYCLES), arc_turns: true, ..grbl::RULES };
+pub(super) const RULES: Rules = Rules {
+    name: "grblhal",
+    g,
+    m,
+    cycles: Some(CYCLES),
+    arc_turns: true,
+    cubic: Cubic::Chords,
+    ..grbl::RULES
+};
 
 const CYCLES: Cycles = Cycles {
     with_dwell: &[CycleKind::Dwell, CycleKind::BoreStop, CycleKind::BoreDwell],
@@ -24,7 +32,7 @@ fn g(tenths: u16) -> Option<G> {
         591..=593 => G::WorkOffset(tenths - 584),
         970 => G::NoEffect(Group::Speed),
         500 => G::NoEffect(Group::Other),
-        50 | 51 | 330 | 760 => G::Unfollowed(Group::Motion),
+        51 | 330 | 760 => G::Unfollowed(Group::Motion),
         432 => G::Unfollowed(Group::Length),
         510 => G::Unfollowed(Group::Other),
         _ => return grbl::g(tenths),

@@ -64,7 +64,7 @@ pub(super) const RULES: Rules = Rules {
     radius_wins: false,
     shaky_half_circle: false,
     arc_turns: true,
-    cubic: Cubic::Joined,
+    cubic: Cubic::Exact,
     arc_needs_end: false,
     arc_end: ArcEnd::Spiral,
     arc_offsets: *b"IJK",
