@@ -44,16 +44,11 @@ fn excerpt(text: &str) -> String {
     }
     let mut out = lines[..EXCERPT].join("\n");
     let left_out = lines.len() - 2 * EXCERPT;
-    let _ = write!(out, "\n… {left_out} lines, fnv1a {:016x} of the whole …\n", fnv1a(text.as_bytes()));
+    let _ =
+        write!(out, "\n… {left_out} lines, fnv1a {:016x} of the whole …\n", common::fnv1a(text.as_bytes()));
     out.push_str(&lines[lines.len() - EXCERPT..].join("\n"));
     out.push('\n');
     out
-}
-
-fn fnv1a(bytes: &[u8]) -> u64 {
-    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
-        (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3)
-    })
 }
 
 fn messages(build: &Build) -> String {

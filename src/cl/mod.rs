@@ -126,8 +126,21 @@ pub struct Clearing {
     pub top: f64,
     /// Largest depth of a level, mm.
     pub step: f64,
-    /// Height of each level, mm, and the area in which the tip may be there, mm².
-    pub levels: Vec<(f64, f64)>,
+    /// The plan keeps so much more than is to be left from the surface, mm.
+    pub margin: f64,
+    /// The levels, from above.
+    pub levels: Vec<Level>,
+}
+
+/// A level of a clearing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Level {
+    /// Height of the tip, mm.
+    pub z: f64,
+    /// Area in which the tip may be there, mm².
+    pub area: f64,
+    /// Area of it that the cutter does not come near, and that was told, mm².
+    pub standing: f64,
 }
 
 /// A wall as the cutter's centre sees it.

@@ -8,7 +8,7 @@ use super::args::Stage;
 use super::build::{Compiled, Planned};
 use super::output::Product;
 use crate::units::LengthUnit;
-use crate::verify::{Certificate, Deviation, OperationProof};
+use crate::verify::{Certificate, ClearingProof, Deviation, OperationProof};
 
 /// Version of the report's form: minor steps only add members.
 const VERSION: &str = "1.0";
@@ -89,6 +89,7 @@ fn line(file: &NcFile<'_>) -> String {
         deviation(certificate, file.units),
         cusps(certificate, file.units),
         bound(certificate),
+        cleared(certificate, file.units),
         Some(duration(certificate.time.total())),
     ];
     let parts: Vec<String> = parts.into_iter().flatten().collect();
@@ -118,6 +119,19 @@ fn cusps(certificate: &Certificate, units: LengthUnit) -> Option<String> {
     let decimals = if units == LengthUnit::Inch { 6 } else { 4 };
     let shown = |v: f64| format!("{:.decimals$}", v / units.in_mm());
     Some(format!("cusps of {}, nowhere more than {} {} left", shown(highest), shown(left), units.symbol()))
+}
+
+/// What is cleared in levels, and the path beside the shortest that its volume allows.
+fn cleared(certificate: &Certificate, units: LengthUnit) -> Option<String> {
+    let clearings = || certificate.operations.iter().filter_map(|o| o.clearing.as_ref());
+    clearings().next()?;
+    let sum = |of: fn(&ClearingProof) -> f64, unit: f64| clearings().map(of).sum::<f64>() / unit;
+    let (unit, symbol) = (units.in_mm(), units.symbol());
+    let volume = sum(|c| c.volume, unit * unit * unit);
+    let [cut, least] = [sum(|c| c.cut, unit), sum(|c| c.bound, unit)];
+    Some(format!(
+        "{volume:.1} {symbol}³ cleared by {cut:.1} {symbol} at feed ({least:.1} by volume the least)"
+    ))
 }
 
 /// Blocks of the contours, and the proven lower bound where it is known for all of them.

@@ -137,6 +137,8 @@ pub struct ClearedLevel {
     pub area: f64,
     /// Path at feed at this height, mm.
     pub length: f64,
+    /// Area of it in which nothing is taken away over the whole depth of a level, mm².
+    pub standing: f64,
 }
 
 /// What was proven of a finished surface.

@@ -21,6 +21,13 @@ GOTO/ 10, 0, 5
 FINI
 ";
 
+/// A digest that tells texts apart.
+pub fn fnv1a(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3)
+    })
+}
+
 /// The files of one directory, named relative to it.
 pub struct Directory(pub PathBuf);
 

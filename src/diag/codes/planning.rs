@@ -142,6 +142,13 @@ pub const ROUGH_TOO_DEEP: Code = Code {
     page: include_str!("../../../docs/diagnostics/W0532.md"),
 };
 
+/// stock stands between the cuts of a level.
+pub const STOCK_STANDS: Code = Code {
+    id: "W0533",
+    title: "stock stands between the cuts of a level",
+    page: include_str!("../../../docs/diagnostics/W0533.md"),
+};
+
 /// there is no room for a helix.
 pub const NO_ROOM_FOR_HELIX: Code = Code {
     id: "N0524",
@@ -267,6 +274,7 @@ pub const ALL: &[&Code] = &[
     &ROUGH_TOO_WIDE,
     &NOTHING_TO_CLEAR,
     &ROUGH_TOO_DEEP,
+    &STOCK_STANDS,
     &TAPERED_WALL,
     &HOLDER_RUBS,
     &NO_BALL,

@@ -7,8 +7,10 @@
 //! between points of the waterline and the tolerance of the arcs, too.
 
 mod arcs;
+mod between;
 mod chain;
 mod entry;
+mod glide;
 mod ground;
 mod link;
 mod march;
@@ -23,16 +25,17 @@ use super::Planner;
 use super::profile::part_side;
 use super::state::Ready;
 use crate::arena::Handle;
-use crate::cl::{Circle, Clearing, Effort, Finish, Guard, Operation, RecordKind};
+use crate::cl::{Circle, Clearing, Effort, Finish, Guard, Level, Operation, RecordKind};
 use crate::diag::Diagnostic;
 use crate::diag::codes::planning as codes;
 use crate::geom::surface::heights::{Blank, HeightField};
-use crate::geom::surface::{Cutter, SurfaceTree};
-use crate::geom::{Point3, Side, Vec3};
+use crate::geom::surface::{Cutter, Island, Standing, SurfaceTree};
+use crate::geom::{Point2, Point3, Side, Vec3};
 use crate::ir::{Origin, RoughNet, StockShape};
 use crate::math::count;
 use ground::{Ground, Rest};
 use path::{Manner, Move, Path, Tally};
+use slice::Spread;
 
 /// Air between cutter and blank where the cutter goes down beside it, mm.
 const CLEAR: f64 = 1.0;
@@ -49,6 +52,12 @@ const ROUNDING: f64 = 0.004;
 const APART: f64 = 0.985;
 /// Cells of the stock, as a share of the radius.
 pub(crate) const CELLS: f64 = 0.05;
+/// Cells in which islands are looked for, as a share of the radius.
+pub(crate) const ISLANDS: f64 = 0.1;
+/// Islands no larger than a square of this share of the radius are not told.
+const TRIFLE: f64 = 0.2;
+/// Chords of arcs where they are, mm.
+const CHORDS: f64 = 2e-3;
 /// Levels at most.
 const MOST_LEVELS: f64 = 2000.0;
 
@@ -56,7 +65,11 @@ const MOST_LEVELS: f64 = 2000.0;
 struct Plan {
     moves: Vec<Move>,
     tally: Tally,
-    levels: Vec<(f64, f64)>,
+    levels: Vec<Level>,
+    /// What stands at some levels, with their heights.
+    islands: Vec<(f64, Island)>,
+    /// Length of all waterlines, mm.
+    waterlines: f64,
 }
 
 /// The plan's measures.
@@ -92,12 +105,13 @@ impl Planner<'_> {
         if job.low >= top {
             return self.no_stock(rough, top, Some(job.low), origin);
         }
-        let plan = clear_all(&job, rough.step);
+        let plan = clear_all(&job, rough);
         if tree.is_exhausted() {
             return self.too_uneven(rough.net, origin);
         }
         let finish = Finish { tree, radius, cutter, leave: rough.leave, cusp: None };
         self.emit_clearing(rough, (&name, ready), &job, (&plan, finish), origin);
+        self.tell_islands((&name, rough), &plan, origin);
         self.tell_entries(&name, &plan.tally, origin);
         self.tell_teeth((&name, rough), (&cutter, &plan.tally), origin);
     }
@@ -157,7 +171,7 @@ impl Planner<'_> {
         (plan, finish): (&Plan, Finish),
         origin: Handle<Origin>,
     ) {
-        let area: f64 = plan.levels.iter().map(|l| l.1).sum();
+        let area: f64 = plan.levels.iter().map(|l| l.area).sum();
         let length = plan.tally.rings + plan.tally.entries + plan.tally.links;
         let effort = Effort {
             engaged: plan.tally.rings + plan.tally.entries,
@@ -168,8 +182,13 @@ impl Planner<'_> {
             levels: u32::try_from(plan.levels.len()).unwrap_or(u32::MAX),
             bound: area / rough.width,
         };
-        let clearing =
-            Clearing { blank: job.ground.blank, top: job.top, step: rough.step, levels: plan.levels.clone() };
+        let clearing = Clearing {
+            blank: job.ground.blank,
+            top: job.top,
+            step: rough.step,
+            margin: job.margin,
+            levels: plan.levels.clone(),
+        };
         let top = finish.tree.bounds().1.z.max(job.top);
         let guard = Guard {
             surface: Some(finish),
@@ -234,14 +253,42 @@ impl Planner<'_> {
         );
         let feed = effort.time.map(|t| t / (effort.engaged + effort.links).max(1e-9));
         let least = feed.map_or(String::new(), |per| format!(", {:.0} s at the feed", per * effort.bound));
-        let areas: Vec<String> = plan.levels.iter().map(|(_, area)| format!("{:.1}", tenth(*area))).collect();
+        let areas: Vec<String> = plan.levels.iter().map(|l| format!("{:.1}", tenth(l.area))).collect();
         let diagnostic = Diagnostic::new(&codes::ROUGHING_FIGURES, self.span(origin), message)
             .note(format!(
                 "cleared area {:.1} mm²; over the step that is {}{least}",
-                plan.levels.iter().map(|l| tenth(l.1)).sum::<f64>(),
+                plan.levels.iter().map(|l| tenth(l.area)).sum::<f64>(),
                 self.show(tenth(effort.bound))
             ))
+            .note(format!(
+                "{} of waterlines: a pass along a wall has half of its step only on one side",
+                self.show(tenth(plan.waterlines))
+            ))
             .note(format!("areas of the levels, mm²: {}", areas.join(", ")));
+        self.report(diagnostic, origin);
+    }
+
+    /// What stands where no way leads to, or where there is no way down.
+    fn tell_islands(&mut self, (name, rough): (&str, &RoughNet), plan: &Plan, origin: Handle<Origin>) {
+        let largest = plan.islands.iter().max_by(|a, b| a.1.area.total_cmp(&b.1.area));
+        let trifle = TRIFLE * self.program.tools[rough.tool].diameter / 2.0;
+        let Some((z, island)) = largest.filter(|l| l.1.area > trifle * trifle) else { return };
+        let levels = plan.levels.iter().filter(|l| l.standing > 0.0).count();
+        let message = format!(
+            "{name}: {:.2} mm² of stock stand untouched at {levels} of {} levels, in {} places; the largest is {:.2} mm² at X {}, Y {}, Z {}",
+            plan.levels.iter().map(|l| l.standing).sum::<f64>(),
+            plan.levels.len(),
+            plan.islands.len(),
+            island.area,
+            self.show((island.place.x * 1000.0).round() / 1000.0),
+            self.show((island.place.y * 1000.0).round() / 1000.0),
+            self.show(*z)
+        );
+        let tool = &self.program.tools[rough.tool];
+        let diagnostic = Diagnostic::new(&codes::STOCK_STANDS, self.span(origin), message)
+            .label(self.span(tool.origin), "the cutter")
+            .note("the tip may stand there, but there is no way down, or no free way to it")
+            .help("a smaller cutter or a steeper RAMP reaches there; finishing meets this stock otherwise");
         self.report(diagnostic, origin);
     }
 
@@ -309,8 +356,11 @@ fn job(
     let safe = rough.clearance.min(top.max(tree.bounds().1.z + rough.leave) + ABOVE);
     let rest = Rest::new(tree, cutter, rough.leave + margin);
     let stock = HeightField::new(&blank, top, CELLS * radius);
+    let reach = cutter.half_width(rough.step) - FIT * margin;
     let manner = Manner {
-        width: APART * rough.width,
+        // Half of it is reached in any case.
+        width: (APART * rough.width).min(between::widest(reach, step).max(0.5 * APART * rough.width)),
+        reach,
         air: radius + CLEAR + 2.0 * stock.cell(),
         safe,
         ramp: crate::math::tan(rough.ramp),
@@ -323,16 +373,49 @@ fn job(
     Some(Job { ground, manner, stock, top, low, margin })
 }
 
-fn clear_all(job: &Job, step: f64) -> Plan {
-    let mut path = Path::new(&job.ground, job.manner, job.stock.clone());
-    let mut levels = Vec::new();
-    for z in heights((job.top, job.low), step) {
-        let Some(slice) = slice::slice(&job.ground, z, (job.manner.width, job.manner.air)) else { continue };
-        levels.push((z, slice.area));
+fn clear_all(job: &Job, rough: &RoughNet) -> Plan {
+    let Job { ground, manner, stock, top, low, margin } = job;
+    let cutter = ground.rest.cutter;
+    let mut path = Path::new(ground, *manner, stock.clone());
+    let kept = (cutter, rough.leave + margin);
+    let mut standing = Standing::new(&ground.rest.tree, kept, ground.blank, ISLANDS * cutter.radius());
+    let (mut levels, mut islands, mut waterlines) = (Vec::new(), Vec::new(), 0.0);
+    let spread = Spread { width: manner.width, reach: manner.reach, air: manner.air };
+    for z in heights((*top, *low), rough.step) {
+        let Some(slice) = slice::slice(ground, z, spread) else { continue };
+        let before = path.moves.len();
         path.level(&slice);
+        let found = standing.after(z, &ways(&path.moves[before..], z), cutter.half_width(rough.step));
+        levels.push(Level { z, area: slice.area, standing: found.iter().fold(0.0, |sum, i| sum + i.area) });
+        waterlines += slice.waterline();
+        islands.extend(found.into_iter().map(|island| (z, island)));
     }
     path.lift();
-    Plan { moves: path.moves, tally: path.tally, levels }
+    Plan { moves: path.moves, tally: path.tally, levels, islands, waterlines }
+}
+
+/// The straight ways of moves along a level.
+fn ways(moves: &[Move], z: f64) -> Vec<(Point2, Point2)> {
+    let mut ways = Vec::new();
+    let mut at: Option<Point3> = None;
+    for step in moves {
+        let to = step.end();
+        let points: Vec<Point3> = match (at, *step) {
+            (Some(from), Move::Arc { to, centre, ccw, turns }) => {
+                path::chords(from, (to, centre, ccw, turns), CHORDS).collect()
+            }
+            (Some(_), Move::Line(p)) => vec![p],
+            _ => Vec::new(),
+        };
+        for p in points {
+            let from = at.replace(p).unwrap_or(p);
+            if (from.z - z).abs() < 1e-9 && (p.z - z).abs() < 1e-9 {
+                ways.push((from.xy(), p.xy()));
+            }
+        }
+        at = Some(to);
+    }
+    ways
 }
 
 /// Heights of the levels from the top of the blank to the lowest height of the tip; the last step may be shorter.

@@ -23,11 +23,21 @@ pub(super) enum Move {
     },
 }
 
+impl Move {
+    pub(super) fn end(&self) -> Point3 {
+        match self {
+            Move::Rapid(p) | Move::Line(p) | Move::Arc { to: p, .. } => *p,
+        }
+    }
+}
+
 /// What the path is made with.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Manner {
     /// Distance of rings, mm.
     pub width: f64,
+    /// Everything nearer than this to the path is cleared at all of a level's depth, mm.
+    pub reach: f64,
     /// How far beside the blank the cutter is clear of it, mm.
     pub air: f64,
     /// Height at which rapids run across, mm.
@@ -76,6 +86,35 @@ pub(super) struct Path<'a> {
     /// The tip, while it is down.
     pub(super) at: Option<Point3>,
     pub(super) stock: HeightField,
+    /// The closed ring that was cut last from its walls on, as long as the tip is at its end.
+    left: Vec<Point2>,
+}
+
+/// Chords of arcs leave them by this share of the stock's cells.
+const SAGITTA: f64 = 0.02;
+
+/// The ends of chords that leave an arc by no more than `off` mm, the arc's own end last.
+pub(super) fn chords(
+    from: Point3,
+    (to, centre, ccw, turns): (Point3, Point2, bool, u32),
+    off: f64,
+) -> impl Iterator<Item = Point3> {
+    // Of a helix, too, no chord is longer than this angle.
+    const LONGEST: f64 = 0.5;
+    let (a, b) = (from.xy() - centre, to.xy() - centre);
+    let sweep = sweep((a, b), ccw) + TAU * f64::from(turns);
+    let r = a.norm();
+    let step = (8.0 * off / r.max(1e-9)).sqrt().min(LONGEST);
+    let parts = ceil_to_usize(sweep / step).max(1);
+    let start = crate::math::atan2(a.y, a.x);
+    (1..=parts).map(move |k| {
+        if k == parts {
+            return to;
+        }
+        let share = count(k) / count(parts);
+        let (s, c) = sin_cos(start + if ccw { sweep } else { -sweep } * share);
+        Point3::new(centre.x + r * c, centre.y + r * s, from.z + (to.z - from.z) * share)
+    })
 }
 
 pub(super) fn over(p: Point2, z: f64) -> Point3 {
@@ -84,7 +123,7 @@ pub(super) fn over(p: Point2, z: f64) -> Point3 {
 
 impl<'a> Path<'a> {
     pub(super) fn new(ground: &'a Ground, manner: Manner, stock: HeightField) -> Path<'a> {
-        Path { ground, manner, moves: Vec::new(), tally: Tally::default(), at: None, stock }
+        Path { ground, manner, moves: Vec::new(), tally: Tally::default(), at: None, stock, left: Vec::new() }
     }
 
     /// Clears a level, the nearest pocket first: inner pockets whole before what is around them, or the other way round.
@@ -105,6 +144,21 @@ impl<'a> Path<'a> {
                 self.pocket(slice, pocket, around.as_slice());
             }
             stack.push(Turn { pocket: Some(index), rest: pocket.inner.clone(), reversed });
+        }
+        self.spurs(slice);
+    }
+
+    /// What rings leave between them is cut last: it stands alone then.
+    fn spurs(&mut self, slice: &Slice) {
+        let mut rest = slice.spurs.clone();
+        while let Some(at) = self.last() {
+            let off = |n: usize| (rest[n].0 - at.xy()).norm();
+            let Some(next) = (0..rest.len()).min_by(|a, b| off(*a).total_cmp(&off(*b))) else { break };
+            let (from, to) = rest.swap_remove(next);
+            if self.free((from, to), slice.z) {
+                self.descend(from, slice.z);
+                self.run(&[from, to], (slice.z, slice.z));
+            }
         }
     }
 
@@ -137,8 +191,12 @@ impl<'a> Path<'a> {
                 self.open_ring(slice, pocket, &ring, &cleared);
                 cleared.extend(&ring.points);
             } else if let Some(start) = self.come(slice, pocket, &ring, &cleared) {
-                self.ring(slice.z, &ring, start);
+                let before = core::mem::take(&mut self.left);
+                let cut = self.ring(slice.z, &ring, start, &before);
                 cleared.extend(&ring.points);
+                if self.is_reversed(pocket) {
+                    self.left = cut;
+                }
             }
         }
     }
@@ -165,9 +223,7 @@ impl<'a> Path<'a> {
     }
 
     pub(super) fn last(&self) -> Option<Point3> {
-        self.moves.last().map(|m| match m {
-            Move::Rapid(p) | Move::Line(p) | Move::Arc { to: p, .. } => *p,
-        })
+        self.moves.last().map(Move::end)
     }
 
     /// A curve that ends at the blank's border: from outside where that is free, else from within the pocket.
@@ -203,15 +259,22 @@ impl<'a> Path<'a> {
         self.run(&points, (z, z));
     }
 
-    /// A closed ring, from one of its points round to it.
-    fn ring(&mut self, z: f64, ring: &Ring, start: usize) {
-        let n = ring.points.len();
-        let points: Vec<Point2> = (0..=n).map(|k| ring.points[(start + k) % n]).collect();
+    /// A closed ring, from one of its points round to it; `before`: the ring that was cut last, from its end on, where this lies
+    /// beside it in full material.
+    fn ring(&mut self, z: f64, ring: &Ring, start: usize, before: &[Point2]) -> Vec<Point2> {
+        let mut ring = ring.clone();
+        if before.is_empty() || !self.glide(z, before, &mut ring) {
+            ring.points.rotate_left(start);
+        }
+        let mut points = ring.points;
+        points.extend(points.first().copied());
         if let Some(from) = self.at.filter(|p| (p.xy() - points[0]).norm() > 1e-9) {
             self.tally.links += (from.xy() - points[0]).norm();
             self.line(over(points[0], z));
         }
         self.run(&points, (z, z));
+        points.pop();
+        points
     }
 
     /// Along a chain of points, its height linear in its length.
@@ -253,19 +316,11 @@ impl<'a> Path<'a> {
     pub(super) fn arc(&mut self, to: Point3, centre: Point2, ccw: bool, turns: u32) {
         let cutter = self.cutter();
         if let Some(from) = self.at {
-            let (a, b) = (from.xy() - centre, to.xy() - centre);
-            let sweep = sweep((a, b), ccw) + TAU * f64::from(turns);
-            let parts = ceil_to_usize(sweep / 0.2).max(1);
-            let at = |k: usize| {
-                let share = count(k) / count(parts);
-                let angle = crate::math::atan2(a.y, a.x) + if ccw { sweep } else { -sweep } * share;
-                let (s, c) = sin_cos(angle);
-                let r = a.norm();
-                let z = from.z + (to.z - from.z) * share;
-                cutter.reference(Point3::new(centre.x + r * c, centre.y + r * s, z))
-            };
-            for k in 0..parts {
-                self.stock.cut(at(k), at(k + 1), &cutter);
+            let off = SAGITTA * self.stock.cell();
+            let mut at = from;
+            for p in chords(from, (to, centre, ccw, turns), off) {
+                self.stock.cut(cutter.reference(at), cutter.reference(p), &cutter);
+                at = p;
             }
         }
         self.moves.push(Move::Arc { to, centre, ccw, turns });

@@ -44,47 +44,67 @@ pub(super) struct Slice {
     pub room: Vec<f64>,
     /// Area in which the tip may be, over the blank, mm².
     pub area: f64,
+    /// Ways from a ring into what stands between rings.
+    pub spurs: Vec<(Point2, Point2)>,
+}
+
+/// How far rings lie apart and how far they reach, and how far beside the blank the cutter is clear of it, mm.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Spread {
+    pub width: f64,
+    /// Everything nearer than this to the path is cleared.
+    pub reach: f64,
+    pub air: f64,
 }
 
 /// Vertices nearer to each other than this part of the grid's step are one.
 const SAME: f64 = 0.2;
 
-/// The rings of the level at `z`, `width` apart; `air`: how far beside the blank the cutter is clear of it. `None` where
-/// the tip can be nowhere.
-pub(super) fn slice(ground: &Ground, z: f64, (width, air): (f64, f64)) -> Option<Slice> {
+/// The rings of the level at `z`; `None` where the tip can be nowhere.
+pub(super) fn slice(ground: &Ground, z: f64, spread: Spread) -> Option<Slice> {
+    let width = spread.width;
     let grid = &ground.grid;
     let values = ground.values(z);
     let walls = lines(grid, &values, &|a, b| ground.root((grid.node(a), grid.node(b)), z));
     let over = |k: usize| values[k] <= 0.0 && ground.blank.distance(grid.node(k)) <= 0.0;
     let area = area(ground, &walls, (0..grid.len()).filter(|k| over(*k)).count());
     if walls.is_empty() {
-        return values.first().filter(|v| **v <= 0.0).map(|_| facing(ground, z, (width, air), area));
+        return values.first().filter(|v| **v <= 0.0).map(|_| facing(ground, z, spread, area));
     }
     let room = distances(grid, &values, &walls);
     let most = (0..grid.len()).filter(|k| over(*k)).map(|k| room[k]).fold(0.0, f64::max);
     // Floats saturate; a level has far fewer rings than this.
     let last = (most / width).floor().clamp(0.0, 1e5) as usize;
-    let mut slice = Slice { z, pockets: Vec::new(), outer: Vec::new(), room, area };
+    let mut slice = Slice { z, pockets: Vec::new(), outer: Vec::new(), room, area, spurs: Vec::new() };
     let mut inner: Vec<Option<usize>> = vec![None; grid.len()];
+    // The innermost pocket that each node lies in.
+    let mut home = inner.clone();
     for number in (0..=last).rev() {
         let from = count(number) * width;
-        inner = slice.layer(ground, from, (number == 0).then_some(&walls), &inner);
+        let over = slice.room.iter().map(|room| from - room).collect();
+        inner = slice.layer(ground, over, (number == 0).then_some(&walls), &inner);
+        home.iter_mut().zip(&inner).for_each(|(home, own)| *home = home.or(*own));
     }
     slice.outer.extend((0..slice.pockets.len()).filter(|p| inner.contains(&Some(*p))).collect::<Vec<_>>());
+    // Rings nearer to each other than they reach leave nothing: from any place the way to the walls crosses one.
+    if width > spread.reach {
+        slice.cores(ground, spread.reach, &home);
+        slice.spurs = slice.between(ground, spread.reach);
+    }
     Some(slice)
 }
 
 impl Slice {
-    /// The pockets at one distance from the walls, around those farther away; which pocket each node lies in.
-    fn layer(
+    /// The pockets at one distance from the walls (`values`: this less each node's), around those farther away; which pocket
+    /// each node lies in.
+    pub(super) fn layer(
         &mut self,
         ground: &Ground,
-        from: f64,
+        values: Vec<f64>,
         walls: Option<&Vec<Line>>,
         inner: &[Option<usize>],
     ) -> Vec<Option<usize>> {
         let grid = &ground.grid;
-        let values: Vec<f64> = self.room.iter().map(|room| from - room).collect();
         let within: Vec<bool> = (0..grid.len()).map(|k| values[k] <= 0.0 && ground.may_stand(k)).collect();
         let mut label: Vec<Option<usize>> = vec![None; grid.len()];
         for seed in 0..grid.len() {
@@ -162,6 +182,13 @@ impl Slice {
         pocket
     }
 
+    /// Length of the passes along the walls, mm.
+    pub(super) fn waterline(&self) -> f64 {
+        let own = self.pockets.iter().filter(|p| p.walls <= 0.0 && !self.room.is_empty());
+        let rings = own.flat_map(|p| &p.rings).flat_map(|r| pieces(&r.points, r.closed));
+        rings.map(|(a, b)| (b - a).norm()).sum()
+    }
+
     /// How far a place is from the walls, mm.
     pub(super) fn room_at(&self, grid: &Grid, p: Point2) -> f64 {
         if self.room.is_empty() { f64::INFINITY } else { grid.between(&self.room, p) }
@@ -188,14 +215,22 @@ fn area(ground: &Ground, walls: &[Line], nodes: usize) -> f64 {
     count(nodes) * ground.grid.step * ground.grid.step
 }
 
-/// Distance of every node from the walls, mm, negative where the value is positive. Each node takes the nearest piece of
-/// wall over from its neighbours, until none changes.
+/// Distance of every node from the walls, mm, negative where the value is positive.
 fn distances(grid: &Grid, values: &[f64], walls: &[Line]) -> Vec<f64> {
-    let mut pieces: Vec<(Point2, Point2)> = Vec::new();
-    for wall in walls {
-        let count = wall.points.len() - usize::from(!wall.closed);
-        pieces.extend((0..count).map(|k| (wall.points[k], wall.points[(k + 1) % wall.points.len()])));
-    }
+    let pieces: Vec<_> = walls.iter().flat_map(|wall| pieces(&wall.points, wall.closed)).collect();
+    let near = nearest(grid, &pieces);
+    (0..grid.len()).map(|k| if values[k] <= 0.0 { near[k].0 } else { -near[k].0 }).collect()
+}
+
+/// The pieces of a curve.
+pub(super) fn pieces(points: &[Point2], closed: bool) -> impl Iterator<Item = (Point2, Point2)> {
+    let count = points.len() - usize::from(!closed && !points.is_empty());
+    (0..count).map(|k| (points[k], points[(k + 1) % points.len()]))
+}
+
+/// The nearest of some pieces of every node, and how far it is, mm. Each node takes the nearest piece over from its neighbours,
+/// until none changes.
+pub(super) fn nearest(grid: &Grid, pieces: &[(Point2, Point2)]) -> Vec<(f64, usize)> {
     let [columns, rows] = grid.counts;
     let mut near: Vec<(f64, usize)> = vec![(f64::INFINITY, usize::MAX); grid.len()];
     let off = |k: usize, piece: usize| {
@@ -241,7 +276,7 @@ fn distances(grid: &Grid, values: &[f64], walls: &[Line]) -> Vec<f64> {
             }
         }
     }
-    (0..grid.len()).map(|k| if values[k] <= 0.0 { near[k].0 } else { -near[k].0 }).collect()
+    near
 }
 
 /// The parts of a curve over the blank: all of it where the cutter does not come from outside.
@@ -297,7 +332,7 @@ fn thinned(line: &Line, least: f64) -> Vec<Point2> {
 }
 
 /// A level above all of the surface: lines to and fro over the blank, along its longer side.
-fn facing(ground: &Ground, z: f64, (width, air): (f64, f64), area: f64) -> Slice {
+fn facing(ground: &Ground, z: f64, Spread { width, air, .. }: Spread, area: f64) -> Slice {
     let (low, high) = ground.blank.bounds();
     let size = high - low;
     let axis = usize::from(size.y > size.x);
@@ -323,5 +358,5 @@ fn facing(ground: &Ground, z: f64, (width, air): (f64, f64), area: f64) -> Slice
         airy: true,
         ..Pocket::default()
     };
-    Slice { z, pockets: vec![pocket], outer: vec![0], room: Vec::new(), area }
+    Slice { z, pockets: vec![pocket], outer: vec![0], room: Vec::new(), area, spurs: Vec::new() }
 }

@@ -1,14 +1,16 @@
-//! Stock that is cleared in levels: rapids clear of what is left of it, and how much of the path cuts air.
+//! Stock that is cleared in levels: rapids clear of what is left of it, how much of the path cuts air, and that every level is
+//! cleared.
 //!
 //! The text's moves are swept through a field of heights. Rapids are told to be clear by heights that nothing of the
-//! stock exceeds; volumes and air are estimates at the middles of its cells.
+//! stock exceeds; volumes and air are estimates at the middles of its cells. Of every level no more may stand untouched than the
+//! plan has told.
 
 use super::Moved;
-use crate::cl::{Clearing, Finish, Operation};
+use crate::cl::{Clearing, Finish, Level, Operation};
 use crate::diag::codes::verification as codes;
-use crate::geom::Point3;
-use crate::geom::surface::Cutter;
 use crate::geom::surface::heights::HeightField;
+use crate::geom::surface::{Cutter, Standing};
+use crate::geom::{Point2, Point3};
 use crate::verify::ACCURACY;
 use crate::verify::certificate::{ClearedLevel, ClearingProof};
 use crate::verify::finding::{Finding, Text};
@@ -29,7 +31,6 @@ pub(super) fn check(
     let section = cutter.section(clearing.step);
     let mut stock = HeightField::new(&clearing.blank, clearing.top, CELLS * cutter.radius());
     let mut proof = empty(clearing);
-    let mut places: Vec<(f64, f64)> = Vec::new();
     for moved in moves {
         for (from, to) in &moved.ways {
             if moved.rapid {
@@ -55,19 +56,53 @@ pub(super) fn check(
                 }
             }
             proof.cut += length;
-            places.push((0.5 * (from.z + to.z) - cutter.lift(), length));
         }
     }
     proof.bound = proof.volume / section;
-    for level in &mut proof.levels {
-        let own = places.iter().filter(|(z, _)| (z - level.z).abs() < 0.01 * clearing.step);
-        level.length = own.map(|(_, length)| length).sum();
-    }
+    levels((operation, finish, clearing), moves, &mut proof.levels, findings);
     proof
 }
 
+/// Path of every level, and what stands there.
+fn levels(
+    (operation, finish, clearing): (&Operation, &Finish, &Clearing),
+    moves: &[Moved],
+    levels: &mut [ClearedLevel],
+    findings: &mut Vec<Finding>,
+) {
+    let cutter = finish.cutter;
+    let kept = (cutter, finish.leave + clearing.margin);
+    let mut standing = Standing::new(&finish.tree, kept, clearing.blank, ISLANDS * cutter.radius());
+    let reach = cutter.half_width(clearing.step) + ACCURACY;
+    for (level, told) in levels.iter_mut().zip(&clearing.levels) {
+        let near = |p: &Point3| (p.z - cutter.lift() - level.z).abs() < 0.01 * clearing.step;
+        let of = |moved: &&Moved| !moved.rapid;
+        let feeds = moves.iter().filter(of).flat_map(|m| &m.ways);
+        let own: Vec<(Point2, Point2)> =
+            feeds.filter(|(a, b)| near(a) && near(b)).map(|(a, b)| (a.xy(), b.xy())).collect();
+        level.length = own.iter().map(|(a, b)| (b - a).norm()).sum();
+        let islands = standing.after(level.z, &own, reach);
+        level.standing = islands.iter().fold(0.0, |sum, island| sum + island.area);
+        let allowed = ROUNDED.0 * told.standing + ROUNDED.1 * cutter.radius() * cutter.radius();
+        if let Some(island) = islands.first().filter(|_| level.standing > allowed) {
+            let text = Text::default()
+                .words(format!(
+                    "{:.3} mm² of stock stand untouched at a level of {}, around ",
+                    level.standing, operation.name
+                ))
+                .place(Point3::new(island.place.x, island.place.y, level.z));
+            findings.push(Finding::new(&codes::SURFACE_LEFT, 0, None, text));
+        }
+    }
+}
+
+/// What stands may be more than was told by this share, and by this share of the cutter's radius squared: the control rounds.
+const ROUNDED: (f64, f64) = (1.02, 0.01);
+/// Cells in which islands are looked for, as a share of the radius.
+const ISLANDS: f64 = 0.09;
+
 fn empty(clearing: &Clearing) -> ClearingProof {
-    let level = |(z, area): &(f64, f64)| ClearedLevel { z: *z, area: *area, length: 0.0 };
+    let level = |l: &Level| ClearedLevel { z: l.z, area: l.area, length: 0.0, standing: 0.0 };
     ClearingProof {
         levels: clearing.levels.iter().map(level).collect(),
         cut: 0.0,

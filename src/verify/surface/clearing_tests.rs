@@ -99,7 +99,7 @@ fn what_another_cutter_may_a_flat_one_may_not() {
 fn moves_of(build: &Build) -> (Vec<crate::geom::Point3>, Vec<crate::geom::Point3>) {
     use crate::cl::RecordKind;
     let cl = build.cl.as_ref().expect("CL");
-    let first = cl.operations[0].guard.clearing.as_ref().expect("levels").levels[0].0;
+    let first = cl.operations[0].guard.clearing.as_ref().expect("levels").levels[0].z;
     let (mut rapids, mut cuts) = (Vec::new(), Vec::new());
     for record in &cl.records {
         match &record.kind {
@@ -144,5 +144,67 @@ fn levels_go_inwards_or_outwards_as_they_are_told() {
         let [inward, outward, without] = ways.each_ref().map(|cuts| ends(cuts));
         assert!(inward[1] < inward[0] && outward[1] > outward[0] + 2.0, "{inward:?} {outward:?}");
         assert_eq!(without, if usual == "IN" { inward } else { outward });
+    }
+}
+
+/// Area that stands at all levels together, mm².
+fn standing(build: &Build) -> f64 {
+    cleared(build).levels.iter().map(|level| level.standing).sum()
+}
+
+#[test]
+fn passes_as_wide_as_the_cutter_leave_nothing_between_them() {
+    let jobs = [
+        (CAVITY, "(0, 0, -16), (60, 48, 0)", "BALL, 10", "STEP, 4, WIDTH, 9, LEAVE, 0.5"),
+        (CAVITY, "(0, 0, -16), (60, 48, 0)", "FLAT, 10", "STEP, 4, WIDTH, 9.5, LEAVE, 0.5"),
+        (DOME, "(0, 0, -5), (60, 60, 11)", "BULL, 10, 1", "STEP, 4, WIDTH, 9, LEAVE, 0.5"),
+        (PIT, "(0, 0, -16), (27, 24, 0)", "TAPER, 5, 1, ANGLE, 5", "STEP, 5, WIDTH, 5, LEAVE, 0.5"),
+    ];
+    for (net, block, cutter, options) in jobs {
+        let build = roughed(net, block, cutter, options);
+        assert!(standing(&build) < 0.3, "{cutter}: {:?}", cleared(&build).levels);
+        assert!(
+            !build.diagnostics.iter().any(|d| d.code.id == "W0533"),
+            "{cutter}: {:#?}",
+            build.diagnostics
+        );
+    }
+}
+
+#[test]
+fn what_stands_and_was_not_told_is_refused() {
+    let build = roughed(CAVITY, "(0, 0, -8), (60, 48, 0)", "BALL, 10", "STEP, 4, WIDTH, 9, LEAVE, 0.5");
+    let (mut cl, target) =
+        (build.cl.clone().expect("CL"), build.outputs[0].target.clone().expect("a target"));
+    // At half the depth the ball is narrower than its passes are apart.
+    let clearing = cl.operations[0].guard.clearing.as_mut().expect("levels");
+    clearing.step = 2.0;
+    let found = refused(&cl, &target);
+    assert!(!found.is_empty() && found.iter().all(|id| *id == "E0821"), "{found:?}");
+}
+
+#[test]
+fn one_roughing_pass_is_proven_with_every_cutter() {
+    for cutter in ["BALL, 8", "FLAT, 6", "BULL, 8, 2", "TAPER, 5, 1, ANGLE, 5"] {
+        for along in ["U", "Y"] {
+            let mut files = MemoryFiles::default();
+            let text = format!(
+                "UNITS/ MM\nMACHIN/ LINUXCNC\nN1 = NET/ 4, 4, {PIT}\nT1 = CUTTER/ {cutter}, NUMBER, 1\nLOADTL/ T1\n\
+                 SPINDL/ 8000\nFEDRAT/ 800\nINTOL/ 0\nOUTTOL/ 0.05\nCLEARP/ 30\n\
+                 R1 = ROUGH/ N1, OFFSET, 0.5, {along}, STEP, 3\nFINI\n"
+            );
+            files.0.insert("part.apt".to_owned(), text);
+            let build = driver::build("part.apt", &files, &Options::default());
+            assert!(!build.has_errors(), "{cutter} {along}: {:#?}", build.diagnostics);
+            let proven = build.outputs[0].proven.as_ref().expect("a proven program");
+            let proof = proven.certificate().operations[0].surface.clone().expect("a surface");
+            assert!(proof.leave == 0.5 && proof.passes > 4, "{cutter} {along}: {proof:?}");
+            assert!(
+                proof.into.value <= 1e-6 && proof.out.value <= 0.05 + 1e-6,
+                "{cutter} {along}: {proof:?}"
+            );
+            // In the middle of passes what is left stays, and no less anywhere.
+            assert!(proof.left.value >= 0.0 && proof.left.value < 4.0, "{cutter} {along}: {proof:?}");
+        }
     }
 }

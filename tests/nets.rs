@@ -1,0 +1,244 @@
+//! Properties of nets, through the whole pipeline: what does not change the surface, or moves it as a whole, does the same to the
+//! proven program.
+
+use std::fmt::Write as _;
+
+use partwright::driver::{self, Build, Options};
+use partwright::source::MemoryFiles;
+use partwright::verify::SurfaceProof;
+use proptest::prelude::*;
+
+type Pole = [f64; 3];
+
+/// A net by rows.
+#[derive(Debug, Clone)]
+struct Net {
+    rows: usize,
+    columns: usize,
+    poles: Vec<Pole>,
+}
+
+impl Net {
+    fn map(&self, image: impl Fn(Pole) -> Pole) -> Net {
+        Net { poles: self.poles.iter().map(|p| image(*p)).collect(), ..self.clone() }
+    }
+
+    fn row(&self, i: usize) -> &[Pole] {
+        &self.poles[i * self.columns..(i + 1) * self.columns]
+    }
+
+    fn of_rows(rows: &[Vec<Pole>]) -> Net {
+        Net { rows: rows.len(), columns: rows[0].len(), poles: rows.concat() }
+    }
+
+    fn text(&self) -> String {
+        let mut text = format!("NET/ {}, {}", self.rows, self.columns);
+        for [x, y, z] in &self.poles {
+            let _ = write!(text, ", $\n  ({x}, {y}, {z})");
+        }
+        text
+    }
+}
+
+fn mix(a: &[Pole], b: &[Pole], t: f64) -> Vec<Pole> {
+    a.iter().zip(b).map(|(a, b)| [0, 1, 2].map(|i| a[i] + (b[i] - a[i]) * t)).collect()
+}
+
+/// The same surface with one more row of poles.
+fn elevated(net: &Net) -> Net {
+    let n = net.rows;
+    let rows: Vec<Vec<Pole>> = (0..=n)
+        .map(|i| {
+            let t = i as f64 / n as f64;
+            let (before, own) = (net.row(i.saturating_sub(1)), net.row(i.min(n - 1)));
+            mix(own, before, t)
+        })
+        .collect();
+    Net::of_rows(&rows)
+}
+
+/// The same surface as a chain of two patches along u (de Casteljau).
+fn split(net: &Net) -> Net {
+    let mut level: Vec<Vec<Pole>> = (0..net.rows).map(|i| net.row(i).to_vec()).collect();
+    let (mut first, mut last) = (vec![level[0].clone()], vec![level[level.len() - 1].clone()]);
+    while level.len() > 1 {
+        level = level.windows(2).map(|w| mix(&w[0], &w[1], 0.5)).collect();
+        first.push(level[0].clone());
+        last.push(level[level.len() - 1].clone());
+    }
+    last.reverse();
+    first.extend(last.into_iter().skip(1));
+    Net::of_rows(&first)
+}
+
+/// A bicubic net with heights in tenths.
+fn nets() -> impl Strategy<Value = Net> {
+    proptest::collection::vec(-30..30i32, 16).prop_map(|heights| {
+        let pole = |k: usize| [10.0 * (k / 4) as f64, 8.0 * (k % 4) as f64, f64::from(heights[k]) / 10.0];
+        Net { rows: 4, columns: 4, poles: (0..16).map(pole).collect() }
+    })
+}
+
+fn built(definitions: &str, operation: &str) -> Build {
+    let text = format!(
+        "UNITS/ MM\nMACHIN/ LINUXCNC\n{definitions}\nT1 = CUTTER/ BALL, 6, NUMBER, 1\nLOADTL/ T1\nSPINDL/ 8000\n\
+         FEDRAT/ 800\nINTOL/ 0\nOUTTOL/ 0.02\nCLEARP/ 30\nS1 = SURFAC/ N1, ZIGZAG, {operation}\nFINI\n"
+    );
+    let files = MemoryFiles([("part.apt".to_owned(), text)].into());
+    driver::build("part.apt", &files, &Options::default())
+}
+
+fn finished(net: &Net, operation: &str) -> Build {
+    built(&format!("N1 = {}", net.text()), operation)
+}
+
+/// The proof, or the codes of what stands against it: they are to be the same, too.
+fn outcome(build: &Build) -> Result<SurfaceProof, Vec<&'static str>> {
+    match build.outputs.first().and_then(|o| o.proven.as_ref()) {
+        Some(proven) => Ok(proven.certificate().operations[0].surface.clone().expect("a surface")),
+        None => Err(build.diagnostics.iter().map(|d| d.code.id).collect()),
+    }
+}
+
+/// The words X, Y, Z of the moves of a program, in micrometres.
+fn places(build: &Build) -> Vec<[i64; 3]> {
+    let proven = build.outputs[0].proven.as_ref().expect("a proven program");
+    let mut at = [0; 3];
+    let mut places = Vec::new();
+    for line in proven.text().lines().filter(|l| !l.starts_with(['(', '%', ';'])) {
+        let mut moved = false;
+        for word in line.split_whitespace().take_while(|w| !w.starts_with('(')) {
+            if let Some(axis) = ["X", "Y", "Z"].iter().position(|a| word.starts_with(a))
+                && let Ok(value) = word[1..].parse::<f64>()
+            {
+                at[axis] = (value * 10_000.0).round() as i64;
+                moved = true;
+            }
+        }
+        if moved {
+            places.push(at);
+        }
+    }
+    places
+}
+
+/// Lengths agree to this share, and counts to this share or two: rounding may end a block a step earlier.
+fn alike(a: &SurfaceProof, b: &SurfaceProof, share: f64) -> Result<(), TestCaseError> {
+    let near = |a: f64, b: f64| (a - b).abs() <= share * a.abs().max(b.abs()).max(1.0);
+    prop_assert!(near(a.length, b.length), "{} {}", a.length, b.length);
+    prop_assert!(a.passes == b.passes, "{} {}", a.passes, b.passes);
+    let off = a.blocks.abs_diff(b.blocks);
+    prop_assert!(off <= 2 || f64::from(off) <= share * f64::from(a.blocks), "{} {}", a.blocks, b.blocks);
+    Ok(())
+}
+
+/// Both are proven alike, or neither is.
+fn same(a: &Build, b: &Build, share: f64) -> Result<(), TestCaseError> {
+    match (outcome(a), outcome(b)) {
+        (Ok(a), Ok(b)) => alike(&a, &b, share),
+        (Err(a), Err(b)) => {
+            prop_assert_eq!(a, b);
+            Ok(())
+        }
+        (a, b) => Err(TestCaseError::fail(format!("{a:?} {b:?}"))),
+    }
+}
+
+const PASSES: [&str; 4] = ["U, STEP, 3", "V, STEP, 3", "X, STEP, 3", "Y, CUSP, 0.2"];
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 12, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// The weights of a point sum up to one: poles of one height are a plane of that height, rational or not.
+    #[test]
+    fn poles_of_one_height_are_a_plane(
+        height in -50..50i32,
+        weights in proptest::collection::vec(8..12u32, 16),
+        passes in 0..3usize,
+    ) {
+        let z = f64::from(height) / 10.0;
+        let poles = (0..16).map(|k| [10.0 * (k / 4) as f64, 8.0 * (k % 4) as f64, z]).collect();
+        let net = Net { rows: 4, columns: 4, poles };
+        let weights: Vec<String> = weights.iter().map(|w| format!("{}", f64::from(*w) / 10.0)).collect();
+        let definition = format!("N1 = {}, WEIGHT, {}", net.text(), weights.join(", $\n  "));
+        let build = built(&definition, PASSES[passes]);
+        let proof = outcome(&build).expect("a proof");
+        prop_assert!(proof.passes > 2);
+        let lowest = places(&build).iter().map(|p| p[2]).min().expect("a move");
+        let level = (z * 10_000.0).round() as i64;
+        prop_assert!((level..=level + 200).contains(&lowest), "{lowest} {level}");
+    }
+
+    /// The image of a surface is the surface of the images of its poles, under a shear and another scale of each axis.
+    #[test]
+    fn the_image_of_a_net_is_that_of_its_poles(
+        net in nets(),
+        elements in proptest::collection::vec(-3..4i32, 6),
+        passes in 0..4usize,
+    ) {
+        let tenth = |i: usize| f64::from(elements[i]) / 10.0;
+        let rows = [
+            [1.2, tenth(0), 0.0, f64::from(elements[1])],
+            [tenth(2), 0.9, 0.0, f64::from(elements[3])],
+            [tenth(4), tenth(5), 0.8, 1.5],
+        ];
+        let image = net.map(|p| rows.map(|r| r[0] * p[0] + r[1] * p[1] + r[2] * p[2] + r[3]));
+        let numbers: Vec<String> = rows.iter().flatten().map(f64::to_string).collect();
+        let moved = format!(
+            "N0 = {}\nM1 = MATRIX/ {}\nN1 = NET/ N0, TRFORM, M1", net.text(), numbers.join(", ")
+        );
+        same(&built(&moved, PASSES[passes]), &finished(&image, PASSES[passes]), 1e-3)?;
+    }
+
+    /// Turned by a right angle, passes along X are passes along Y.
+    #[test]
+    fn a_job_turned_by_a_right_angle_has_the_same_lengths_and_blocks(net in nets(), passes in 0..3usize) {
+        let turned = net.map(|[x, y, z]| [-y, x, z]);
+        let (own, other) = [("U, STEP, 3", "U, STEP, 3"), ("X, STEP, 3", "Y, STEP, 3"), ("Y, CUSP, 0.2", "X, CUSP, 0.2")][passes];
+        same(&finished(&net, own), &finished(&turned, other), 5e-3)?;
+    }
+
+    /// Moved by whole millimetres, which are steps of the control's grid, the program is moved.
+    #[test]
+    fn a_job_moved_by_steps_of_the_grid_is_the_same_program_moved(
+        net in nets(),
+        by in (-40..40i32, -40..40i32),
+        passes in 0..4usize,
+    ) {
+        let (dx, dy) = (f64::from(by.0), f64::from(by.1));
+        let moved = net.map(|[x, y, z]| [x + dx, y + dy, z]);
+        let builds = [finished(&net, PASSES[passes]), finished(&moved, PASSES[passes])];
+        same(&builds[0], &builds[1], 1e-3)?;
+        if outcome(&builds[0]).is_ok() {
+            let [a, b] = builds.each_ref().map(places);
+            // The first move has X and Y; before it nothing is known.
+            prop_assert_eq!(a.len(), b.len());
+            for (p, q) in a.iter().zip(&b).skip(3) {
+                let off = [q[0] - p[0] - i64::from(by.0) * 10_000, q[1] - p[1] - i64::from(by.1) * 10_000, q[2] - p[2]];
+                prop_assert!(off.iter().all(|o| o.abs() <= 10), "{p:?} {q:?}");
+            }
+        }
+    }
+
+    /// One more row of poles does not change the surface.
+    #[test]
+    fn a_net_of_a_higher_degree_gives_the_same_program(net in nets(), passes in 0..4usize) {
+        same(&finished(&net, PASSES[passes]), &finished(&elevated(&net), PASSES[passes]), 1e-3)?;
+    }
+
+    /// Two patches that are one give the same proof.
+    #[test]
+    fn a_patch_split_into_a_chain_gives_the_same_proof(net in nets(), passes in 0..4usize) {
+        let builds = [finished(&net, PASSES[passes]), finished(&split(&net), PASSES[passes])];
+        let [a, b] = builds.each_ref().map(outcome);
+        prop_assert_eq!(a.is_ok(), b.is_ok(), "{:?} {:?}", a, b);
+        if let (Ok(a), Ok(b)) = (a, b) {
+            // Along U a pass has a joint to go over now.
+            prop_assert!((a.length / b.length - 1.0).abs() < 0.02, "{} {}", a.length, b.length);
+            prop_assert!(a.passes == b.passes && a.blocks.abs_diff(b.blocks) <= 2 * a.passes);
+            for proof in [&a, &b] {
+                prop_assert!(proof.into.value <= 1e-6 && proof.out.value <= 0.02 + 1e-6);
+            }
+        }
+    }
+}
