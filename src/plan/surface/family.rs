@@ -252,6 +252,11 @@ impl Family {
         }
     }
 
+    /// How far paths may be off the surface in all, mm.
+    pub(super) fn band(&self) -> f64 {
+        self.band
+    }
+
     /// A plan line, cut back to where the ball rests at both ends.
     fn line(&self, mut from: Point2, mut to: Point2) -> Option<Track> {
         const TRIES: u32 = 40;
@@ -301,7 +306,7 @@ impl Family {
         if matches!(surface.along, Along::IsoCusp | Along::Const) {
             let both = [self.along_axis(0), self.along_axis(1)];
             let (family, spread) = march::shortest(both, target, surface.along == Along::Const)?;
-            let rooms = spread.rooms(target, true);
+            let rooms = spread.rooms(target);
             let runs: Vec<Vec<(usize, usize)>> = spread.lines.iter().map(runs).collect();
             let leg = |&(line, k): &(usize, usize)| {
                 let (from, to) = runs[line][k];
@@ -320,7 +325,7 @@ impl Family {
         let spread = spread::spread(self, target)?;
         let places: Vec<f64> = spread.lines.iter().map(|line| line[0]).collect();
         // A chord of a plane pass stays in its plane.
-        let rooms = if self.is_plane() { Vec::new() } else { spread.rooms(target, false) };
+        let rooms = if self.is_plane() { Vec::new() } else { spread.rooms(target) };
         let tracks: Vec<Vec<((f64, f64), Track)>> =
             (0..places.len()).into_par_iter().map(|k| self.tracks(&places, k)).collect();
         let ranges: Vec<Vec<(f64, f64)>> =

@@ -16,8 +16,11 @@ const ROUNDS: u32 = 30;
 const FREE: u32 = 10;
 /// A pass is near enough when it uses so much wherever it may.
 const NEAR: f64 = 0.995;
-/// Part of the height of cusps that bent passes are spread for: the rest is for blocks, which are straight.
-const BENT: f64 = 0.993;
+/// Part of the height of cusps that bent passes are spread for, and how far their paths may be aside, as a share of the
+/// distance of passes: blocks are straight. Passes that bend much are closer, and have more room.
+const BENT: [(f64, f64); 2] = [(0.993, 0.006), (0.985, 0.012)];
+/// They do where they take less than this share of the blocks for it.
+const WORTH: f64 = 0.87;
 /// … and what may be used beyond that.
 const SPENT: f64 = 0.002;
 /// Ways are tried out with about so many passes.
@@ -43,33 +46,79 @@ pub(super) fn shortest(
         .into_iter()
         .flat_map(|v| [Start::First, Start::Last, Start::Middle].map(|s| (v, s)))
         .collect();
-    let tried: Vec<Result<f64, String>> = ways
+    let tried: Vec<Result<Trial, String>> = ways
         .par_iter()
         .map(|(v, start)| {
             let family = if *v { &along_v } else { &along_u };
             let factor = (target.passes(family) / TRIAL).max(1.0);
-            Ok(length(family, &spread(family, target.coarser(factor), even, *start)?))
+            let spread = spread(family, (target.coarser(factor), BENT[0]), even, *start)?;
+            Ok(Trial::new(family, &spread, factor))
         })
         .collect();
-    let mut best: Option<(f64, (bool, Start))> = None;
-    for (way, length) in ways.iter().zip(tried) {
-        let length = length?;
+    let mut best: Option<(Trial, (bool, Start))> = None;
+    for (way, trial) in ways.iter().zip(tried) {
+        let trial = trial?;
         // Ways of the same length: the first of them.
-        if best.is_none_or(|b| length < b.0 * (1.0 - 1e-6)) {
-            best = Some((length, *way));
+        if best.as_ref().is_none_or(|b| trial.length < b.0.length * (1.0 - 1e-6)) {
+            best = Some((trial, *way));
         }
     }
-    let (v, start) = best.map_or((false, Start::First), |b| b.1);
+    let (v, start) = best.as_ref().map_or((false, Start::First), |b| b.1);
     let family = if v { along_v } else { along_u };
-    let spread = spread(&family, target, even, start)?;
-    Ok((family, spread))
+    let roomy =
+        matches!(target, Target::Cusp(_)) && best.is_some_and(|b| b.0.blocks[1] < WORTH * b.0.blocks[0]);
+    let bent = BENT[usize::from(roomy)];
+    let spread = spread(&family, (target, bent), even, start)?;
+    Ok((family, Spread { aside: bent.1, ..spread }))
 }
 
-fn spread(family: &Family, target: Target, even: bool, start: Start) -> Result<Spread, String> {
+fn spread(
+    family: &Family,
+    (target, (part, _)): (Target, (f64, f64)),
+    even: bool,
+    start: Start,
+) -> Result<Spread, String> {
     match target {
-        Target::Cusp(h) if even => constant(family, h * BENT, start),
-        Target::Cusp(h) => marched(family, Target::Cusp(h * BENT), start),
+        Target::Cusp(h) if even => constant(family, h * part, start),
+        Target::Cusp(h) => marched(family, Target::Cusp(h * part), start),
         Target::Step(_) => marched(family, target, start),
+    }
+}
+
+/// What passes that lie farther apart tell of a way.
+struct Trial {
+    /// Length of the passes, mm.
+    length: f64,
+    /// About how many blocks they take, for each room of [`BENT`].
+    blocks: [f64; 2],
+}
+
+impl Trial {
+    /// From passes that are `factor` times as far apart as they will be.
+    fn new(family: &Family, spread: &Spread, factor: f64) -> Trial {
+        let mut trial = Trial { length: 0.0, blocks: [0.0; 2] };
+        for (line, gaps) in spread.lines.iter().zip(&spread.gaps) {
+            let row = Row::new(family, line);
+            for k in 1..COLUMNS {
+                let (Some(before), Some(own)) = (row.contact(k - 1), row.contact(k)) else { continue };
+                let step = (own.centre - before.centre).norm();
+                trial.length += step;
+                let Some(after) = row.contact(k + 1) else { continue };
+                let (along, bend) = (
+                    after.centre - before.centre,
+                    (after.centre - own.centre) - (own.centre - before.centre),
+                );
+                let apart = if gaps[k].1.is_finite() { gaps[k].1 / factor } else { continue };
+                let sideways = own.normal.cross(&along).try_normalize(0.0).unwrap_or_default();
+                // A chord of the length s leaves a bow of the curvature k by k s²/8: the bow has the band to lie in.
+                let chord = |band: f64, bend: f64| step * (8.0 * band / bend.abs().max(1e-12)).sqrt();
+                let upright = chord(family.band(), bend.dot(&own.normal));
+                for (blocks, (_, aside)) in trial.blocks.iter_mut().zip(BENT) {
+                    *blocks += step / upright.min(chord(2.0 * aside * apart, bend.dot(&sideways)));
+                }
+            }
+        }
+        trial
     }
 }
 
@@ -84,7 +133,7 @@ fn constant(family: &Family, h: f64, start: Start) -> Result<Spread, String> {
         let gaps = measure(family, Target::Cusp(h), &passes.lines, (family.across(), Ends::Inside));
         let worst = gaps.iter().flatten().map(|g| g.0).fold(0.0, f64::max);
         if worst <= 1.0 + SPENT {
-            found = Some(Spread { lines: passes.lines, gaps });
+            found = Some(Spread { lines: passes.lines, gaps, ..passes });
         }
         if worst.is_nan() || worst <= 0.0 || (SPARE..=1.0 + SPENT).contains(&worst) {
             break;
@@ -92,16 +141,6 @@ fn constant(family: &Family, h: f64, start: Start) -> Result<Spread, String> {
         step /= worst;
     }
     found.ok_or_else(|| "no constant distance of passes keeps the height of cusps".into())
-}
-
-/// Length of the passes, mm.
-fn length(family: &Family, spread: &Spread) -> f64 {
-    let along = |line: &Line| -> f64 {
-        let row = Row::new(family, line);
-        let chord = |k: usize| Some((row.centre(k + 1)? - row.centre(k)?).norm());
-        (0..COLUMNS - 1).filter_map(chord).sum()
-    };
-    spread.lines.iter().map(along).sum()
 }
 
 fn marched(family: &Family, target: Target, start: Start) -> Result<Spread, String> {
@@ -124,7 +163,7 @@ fn marched(family: &Family, target: Target, start: Start) -> Result<Spread, Stri
         }
     };
     let gaps = measure(family, target, &lines, (edges, Ends::Inside));
-    Ok(Spread { lines, gaps })
+    Ok(Spread { lines, gaps, aside: BENT[0].1 })
 }
 
 struct March<'a> {

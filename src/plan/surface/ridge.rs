@@ -88,8 +88,12 @@ impl Row {
         Row { contacts: (0..COLUMNS).into_par_iter().step_by(CHUNK).flat_map_iter(part).collect() }
     }
 
+    pub(super) fn contact(&self, k: usize) -> Option<&Contact> {
+        self.contacts.get(k)?.as_ref()
+    }
+
     pub(super) fn centre(&self, k: usize) -> Option<Point3> {
-        self.contacts.get(k)?.as_ref().map(|c| c.centre)
+        self.contact(k).map(|c| c.centre)
     }
 
     /// Distance of a point from the points of contact, mm; column `k` is near it.

@@ -38,6 +38,8 @@ pub(super) struct Spread {
     /// For each gap, from the surface's border before the first pass to that behind the last, and each column: the share
     /// used, and the distance of the centres, mm.
     pub gaps: Vec<Vec<(f64, f64)>>,
+    /// Paths may be to the side of their tracks by this share of the distance of passes at least.
+    pub aside: f64,
 }
 
 /// Where the first and the last pass lie.
@@ -102,7 +104,7 @@ pub(super) fn spread(family: &Family, target: Target) -> Result<Spread, String> 
         lines = moved(&lines, &columns, edges, &ends.marks(whole));
         found = measure(family, target, &lines, (edges, ends));
     }
-    Ok(Spread { lines, gaps: found })
+    Ok(Spread { lines, gaps: found, aside: STRAIGHT })
 }
 
 /// Passes that do not bend use at every column what they use at the worst.
@@ -223,17 +225,15 @@ impl Pair<'_> {
     }
 }
 
-/// Paths may be to the side of straight and of bent tracks by this share of the distance of passes at least …
+/// Paths may be to the side of straight tracks by this share of the distance of passes at least …
 const STRAIGHT: f64 = 0.0035;
-const BENT: f64 = 0.006;
 /// … and by this at most.
 const ASIDE: f64 = 0.05;
 
 impl Spread {
     /// How far the path of each pass may be to the side of its track, mm, at every column: half of what the distance
     /// from both neighbours leaves.
-    pub(super) fn rooms(&self, target: Target, bent: bool) -> Vec<Vec<f64>> {
-        let least = if bent { BENT } else { STRAIGHT };
+    pub(super) fn rooms(&self, target: Target) -> Vec<Vec<f64>> {
         let spare = |(used, apart): (f64, f64)| {
             let share = match target {
                 Target::Cusp(_) => 0.5 * (1.0 - used),
@@ -241,7 +241,7 @@ impl Spread {
             };
             // The distance that would use everything up; a pass on the border is free to leave it.
             let whole = if used > 1e-3 { apart / used } else { f64::INFINITY };
-            whole * share.clamp(least, ASIDE)
+            whole * share.clamp(self.aside, ASIDE)
         };
         let own = |j: usize, k: usize| {
             let sides = [j, j + 1].into_iter().filter_map(|i| self.gaps.get(i)?.get(k));
