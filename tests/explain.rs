@@ -141,7 +141,7 @@ fn compile_right(code: &Code, blocks: &[Block]) -> Result<(), String> {
 }
 
 /// Codes that no program text alone can trigger: what does, and the tests that do.
-const NOT_BY_A_PROGRAM: [(&str, &[&str]); 8] = [
+const NOT_BY_A_PROGRAM: [(&str, &[&str]); 9] = [
     (
         "the command line, or a file that cannot be read or written: tests/cli*.rs",
         &[
@@ -170,6 +170,7 @@ const NOT_BY_A_PROGRAM: [(&str, &[&str]); 8] = [
         ],
     ),
     ("a producer on the command line, without a test so far", &["E1009"]),
+    ("a level with a place that no way leads to, which no program has shown so far", &["W0533"]),
     ("a control character, which these files should not hold: src/syntax/tests.rs", &["E0107"]),
     ("a groove that sema has let through: src/plan/tests.rs", &["E0506"]),
 ];

@@ -122,11 +122,14 @@ fn places(build: &Build) -> Vec<[i64; 3]> {
     places
 }
 
+/// With a height of cusps the places where passes come closer depend on how the surface is cut into parts.
+const CUSPS: f64 = 0.05;
+
 /// Lengths agree to this share, and counts to this share or two: rounding may end a block a step earlier.
 fn alike(a: &SurfaceProof, b: &SurfaceProof, share: f64) -> Result<(), TestCaseError> {
     let near = |a: f64, b: f64| (a - b).abs() <= share * a.abs().max(b.abs()).max(1.0);
     prop_assert!(near(a.length, b.length), "{} {}", a.length, b.length);
-    prop_assert!(a.passes == b.passes, "{} {}", a.passes, b.passes);
+    prop_assert!(a.passes.abs_diff(b.passes) <= u32::from(share >= CUSPS), "{} {}", a.passes, b.passes);
     let off = a.blocks.abs_diff(b.blocks);
     prop_assert!(off <= 2 || f64::from(off) <= share * f64::from(a.blocks), "{} {}", a.blocks, b.blocks);
     Ok(())
@@ -195,7 +198,8 @@ proptest! {
     fn a_job_turned_by_a_right_angle_has_the_same_lengths_and_blocks(net in nets(), passes in 0..3usize) {
         let turned = net.map(|[x, y, z]| [-y, x, z]);
         let (own, other) = [("U, STEP, 3", "U, STEP, 3"), ("X, STEP, 3", "Y, STEP, 3"), ("Y, CUSP, 0.2", "X, CUSP, 0.2")][passes];
-        same(&finished(&net, own), &finished(&turned, other), 5e-3)?;
+        let share = if passes == 2 { CUSPS } else { 5e-3 };
+        same(&finished(&net, own), &finished(&turned, other), share)?;
     }
 
     /// Moved by whole millimetres, which are steps of the control's grid, the program is moved.
@@ -234,8 +238,12 @@ proptest! {
         prop_assert_eq!(a.is_ok(), b.is_ok(), "{:?} {:?}", a, b);
         if let (Ok(a), Ok(b)) = (a, b) {
             // Along U a pass has a joint to go over now.
-            prop_assert!((a.length / b.length - 1.0).abs() < 0.02, "{} {}", a.length, b.length);
-            prop_assert!(a.passes == b.passes && a.blocks.abs_diff(b.blocks) <= 2 * a.passes);
+            let by_cusps = passes == 3;
+            let share = if by_cusps { CUSPS } else { 0.02 };
+            prop_assert!((a.length / b.length - 1.0).abs() < share, "{} {}", a.length, b.length);
+            prop_assert!(a.passes.abs_diff(b.passes) <= u32::from(by_cusps), "{} {}", a.passes, b.passes);
+            let more = a.blocks.abs_diff(b.blocks);
+            prop_assert!(more <= (2 + 4 * u32::from(by_cusps)) * a.passes, "{} {}", a.blocks, b.blocks);
             for proof in [&a, &b] {
                 prop_assert!(proof.into.value <= 1e-6 && proof.out.value <= 0.02 + 1e-6);
             }

@@ -99,7 +99,7 @@ impl Trial {
         let mut trial = Trial { length: 0.0, blocks: [0.0; 2] };
         for (line, gaps) in spread.lines.iter().zip(&spread.gaps) {
             let row = Row::new(family, line);
-            for k in 1..COLUMNS {
+            for (k, (_, apart)) in gaps.iter().enumerate().skip(1) {
                 let (Some(before), Some(own)) = (row.contact(k - 1), row.contact(k)) else { continue };
                 let step = (own.centre - before.centre).norm();
                 trial.length += step;
@@ -108,7 +108,10 @@ impl Trial {
                     after.centre - before.centre,
                     (after.centre - own.centre) - (own.centre - before.centre),
                 );
-                let apart = if gaps[k].1.is_finite() { gaps[k].1 / factor } else { continue };
+                if !apart.is_finite() {
+                    continue;
+                }
+                let apart = apart / factor;
                 let sideways = own.normal.cross(&along).try_normalize(0.0).unwrap_or_default();
                 // A chord of the length s leaves a bow of the curvature k by k s²/8: the bow has the band to lie in.
                 let chord = |band: f64, bend: f64| step * (8.0 * band / bend.abs().max(1e-12)).sqrt();
