@@ -88,6 +88,7 @@ fn line(file: &NcFile<'_>) -> String {
         Some(format!("{count} moves")),
         deviation(certificate, file.units),
         cusps(certificate, file.units),
+        unreachable(certificate, file.units),
         bound(certificate),
         cleared(certificate, file.units),
         Some(duration(certificate.time.total())),
@@ -132,6 +133,31 @@ fn cleared(certificate: &Certificate, units: LengthUnit) -> Option<String> {
     Some(format!(
         "{volume:.1} {symbol}³ cleared by {cut:.1} {symbol} at feed ({least:.1} by volume the least)"
     ))
+}
+
+/// What of the finished surfaces the cutters cannot reach, and the most that is left there.
+fn unreachable(certificate: &Certificate, units: LengthUnit) -> Option<String> {
+    let surfaces = || certificate.operations.iter().filter_map(|o| o.surface.as_ref());
+    let most = surfaces().filter_map(|s| s.unreachable).max_by(|a, b| a.value.total_cmp(&b.value))?;
+    let (out, whole) = surfaces()
+        .filter_map(|s| Some((s.unreachable_area?, s.area)))
+        .fold((0.0, 0.0), |sum, own| (sum.0 + own.0, sum.1 + own.1));
+    let (few, many) = if units == LengthUnit::Inch { (4, 6) } else { (1, 4) };
+    let square = units.in_mm() * units.in_mm();
+    let shown = |v: f64| format!("{:.many$}", v / units.in_mm());
+    (out > 0.0).then(|| {
+        format!(
+            "unreachable {:.few$} {}² of {:.few$} (largest remaining {} {} at X {} Y {} Z {})",
+            out / square,
+            units.symbol(),
+            whole / square,
+            shown(most.value),
+            units.symbol(),
+            shown(most.x),
+            shown(most.y),
+            shown(most.z)
+        )
+    })
 }
 
 /// Blocks of the contours, and the proven lower bound where it is known for all of them.

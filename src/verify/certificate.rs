@@ -168,6 +168,12 @@ pub struct SurfaceProof {
     pub left_bound: f64,
     /// Most material found where the ball does not reach for its size.
     pub unreachable: Option<Deviation>,
+    /// Area of the surface, mm².
+    pub area: f64,
+    /// Where the height of cusps was asked for, with a cutter that is no ball: area on which the cutter, let down anywhere, leaves more than may be left, mm².
+    pub unreachable_area: Option<f64>,
+    /// Likewise: area beside that, on which more is left since the cutter touches the surface only nearly, mm².
+    pub beside_area: Option<f64>,
 }
 
 /// What was proven of one contour at one height.

@@ -231,6 +231,7 @@ impl Cutter {
 }
 
 pub mod bent;
+pub mod reach;
 mod section;
 mod way;
 

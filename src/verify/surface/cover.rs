@@ -10,6 +10,7 @@ use rayon::prelude::*;
 use super::Swept;
 use super::field::{Field, tiles};
 use super::moves::Worst;
+use super::reached::Areas;
 use super::tile::Tile;
 use crate::cl::{Finish, Operation};
 use crate::diag::codes::verification as codes;
@@ -29,6 +30,8 @@ pub(super) struct Cover {
     pub cusp: Option<Worst>,
     /// Most material left where the ball does not reach for its size.
     pub unreachable: Option<Worst>,
+    /// Where that is, of cutters that are no balls.
+    pub areas: Option<Areas>,
 }
 
 /// What may be left where nobody said, mm, until places have been looked at.
@@ -63,7 +66,7 @@ pub(super) fn check(
     let known = most(|tile| tile.left.value).min(allowed.unwrap_or(f64::INFINITY));
     let ridge = most(|tile| tile.cusp.value).min(finish.cusp.unwrap_or(0.0));
     found.par_iter_mut().for_each(|tile| tile.finish((known, ridge)));
-    let mut cover = Cover { left, bound: 0.0, cusp: None, unreachable: None };
+    let mut cover = Cover { left, bound: 0.0, cusp: None, unreachable: None, areas: None };
     for tile in &found {
         cover.left.take(tile.left);
         cover.bound = cover.bound.max(tile.bound.value);

@@ -13,6 +13,7 @@ mod cover;
 mod field;
 mod moves;
 mod near;
+mod reached;
 mod remaining;
 mod remains;
 #[cfg(test)]
@@ -119,5 +120,8 @@ fn proof(finish: &Finish, swept: &moves::Measured, cover: &cover::Cover) -> Surf
         left: at(&cover.left),
         left_bound: cover.bound,
         unreachable: cover.unreachable.map(|w| at(&w)),
+        area: reached::whole(finish),
+        unreachable_area: cover.areas.map(|a| a.unreachable),
+        beside_area: cover.areas.map(|a| a.beside),
     }
 }

@@ -19,6 +19,7 @@ use super::cell::{self, Bend};
 use super::cover::{Cover, STEEPEST, SURE};
 use super::field::{TILES, tiles};
 use super::moves::Worst;
+use super::reached::{Areas, area, areas};
 use crate::cl::{Finish, Operation};
 use crate::diag::codes::verification as codes;
 use crate::geom::surface::{Cutter, Patch};
@@ -56,12 +57,16 @@ pub(super) fn check(
         all.bound.take(tile.bound);
         all.too_wide.take(tile.too_wide);
     }
-    if let Some(allowed) = allowed.filter(|a| !(all.bound.value <= *a)) {
+    let holds = allowed.filter(|a| all.bound.value <= *a);
+    let too_wide: Vec<&[(Corner, f64)]> = found.iter().map(|tile| tile.lost.as_slice()).collect();
+    let areas: Option<Areas> = holds.map(|allowed| areas(finish, &too_wide, allowed));
+    if let Some(allowed) = allowed.filter(|_| holds.is_none()) {
         let short = found.iter().filter_map(|tile| tile.short(index, (finish.cusp?, allowed))).collect();
         findings.push(too_much(operation, &all, allowed - ACCURACY).with_short(short));
     }
     let unreachable = (all.too_wide.value > 0.0).then_some(all.too_wide);
-    Cover { left: all.left, bound: all.bound.value.max(all.left.value), cusp: None, unreachable }
+    let bound = all.bound.value.max(all.left.value);
+    Cover { left: all.left, bound, cusp: None, unreachable, areas }
 }
 
 fn too_much(operation: &Operation, found: &Tile, allowed: f64) -> Finding {
@@ -85,7 +90,6 @@ pub(super) struct Field<'a> {
 }
 
 /// What was found on a tile.
-#[derive(Clone, Copy)]
 struct Tile {
     /// The most that is known to be left where the cutter reaches.
     left: Worst,
@@ -93,13 +97,15 @@ struct Tile {
     bound: Worst,
     /// The most that is known to be left where the cutter is too wide.
     too_wide: Worst,
+    /// Middles of cells where so much is left, and their areas, mm².
+    lost: Vec<(Corner, f64)>,
     /// Size of the tile, mm.
     size: f64,
 }
 
 impl Default for Tile {
     fn default() -> Tile {
-        Tile { left: Worst::NONE, bound: Worst::NONE, too_wide: Worst::NONE, size: 0.0 }
+        Tile { left: Worst::NONE, bound: Worst::NONE, too_wide: Worst::NONE, lost: Vec::new(), size: 0.0 }
     }
 }
 
@@ -245,12 +251,14 @@ impl<'a> Field<'a> {
         let judged = self.judge(cell, (&corners, &middle), (0.5 * (size[0] + size[1]), sagitta), enough);
         if judged.most > enough || first {
             let (height, by) = self.least(&judged.near, &middle, 0.0);
-            if self.is_lost(self.worst(height, by, &middle), &middle, size[longest], found) {
+            let of = || area(patch, cell.u, cell.v);
+            if self.is_lost(self.worst(height, by, &middle), (&middle, &of), size[longest], found) {
                 return Verdict::Settled;
             }
         }
         if judged.most <= enough || last {
-            self.settle(judged.most, judged.best, &middle, found);
+            let of = || area(patch, cell.u, cell.v);
+            self.settle(self.worst(judged.most, judged.best, &middle), (&middle, &of), found);
             return Verdict::Settled;
         }
         Verdict::Halved(self.axis(&judged, &corners, (size, sagitta)), judged)
@@ -258,7 +266,13 @@ impl<'a> Field<'a> {
 
     /// Takes what is left at the middle of a cell; whether halving it is of no use, because it is too much anyway or because
     /// the cutter is too wide.
-    fn is_lost(&self, left: Worst, at: &Corner, size: f64, found: &mut Tile) -> bool {
+    fn is_lost(
+        &self,
+        left: Worst,
+        (at, area): (&Corner, &dyn Fn() -> f64),
+        size: f64,
+        found: &mut Tile,
+    ) -> bool {
         let Some(allowed) = self.allowed.filter(|a| left.value > *a) else {
             if left.value.is_finite() {
                 found.left.take(left);
@@ -268,6 +282,7 @@ impl<'a> Field<'a> {
         if left.value <= self.stays(at) + allowed {
             if size < TOO_WIDE {
                 found.too_wide.take(left);
+                found.lost.push((*at, area()));
             }
             return size < TOO_WIDE;
         }
@@ -279,10 +294,12 @@ impl<'a> Field<'a> {
     }
 
     /// Takes the bound of a cell that is not halved.
-    fn settle(&self, most: f64, by: Option<u32>, at: &Corner, found: &mut Tile) {
-        let bound = self.worst(most, by, at);
-        match self.allowed.filter(|a| most > *a) {
-            Some(allowed) if most <= self.stays(at) + allowed => found.too_wide.take(bound),
+    fn settle(&self, bound: Worst, (at, area): (&Corner, &dyn Fn() -> f64), found: &mut Tile) {
+        match self.allowed.filter(|a| bound.value > *a) {
+            Some(allowed) if bound.value <= self.stays(at) + allowed => {
+                found.too_wide.take(bound);
+                found.lost.push((*at, area()));
+            }
             _ => found.bound.take(bound),
         }
     }

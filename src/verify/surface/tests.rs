@@ -327,6 +327,29 @@ fn cutters_with_a_flat_or_a_cone_keep_the_height_of_cusps() {
 }
 
 #[test]
+fn what_no_path_reaches_is_told_apart_from_what_passes_leave() {
+    let net = "NET/ 3, 3, (0, 0, 0), (0, 10, 0), (0, 20, 0), (15, 0, 0), (15, 10, -16), (15, 20, 0), \
+               (30, 0, 0), (30, 10, 0), (30, 20, 0)";
+    let job = |cutter: &str| {
+        let mut files = MemoryFiles::default();
+        let text = format!(
+            "UNITS/ MM\nMACHIN/ LINUXCNC\nN1 = {net}\nT1 = CUTTER/ {cutter}, NUMBER, 1\nLOADTL/ T1\nSPINDL/ 6000, CLW\n\
+             FEDRAT/ 900, MMPM\nOUTTOL/ 0.02\nCLEARP/ 20\nS1 = SURFAC/ N1, ZIGZAG, X, CUSP, 0.3\nFINI\n"
+        );
+        files.0.insert("part.apt".to_owned(), text);
+        let build = driver::build("part.apt", &files, &Options::default());
+        assert!(!build.has_errors(), "{cutter}: {:#?}", build.diagnostics);
+        proof(&build)
+    };
+    let [narrow, wide] = ["BULL, 4, 1.5", "BULL, 12, 1"].map(job);
+    assert!((narrow.area / wide.area - 1.0).abs() < 1e-12 && narrow.area > 600.0, "{narrow:?}");
+    assert_eq!(narrow.unreachable_area, Some(0.0), "{narrow:?}");
+    let [out, beside] = [wide.unreachable_area, wide.beside_area].map(|a| a.expect("an area"));
+    let most = wide.unreachable.expect("material stays").value;
+    assert!(out > 0.5 && out + beside < 0.5 * wide.area && most > 0.32, "{wide:?}");
+}
+
+#[test]
 fn passes_that_lie_too_far_apart_for_their_cusps_are_found() {
     let build = crowned("BULL, 6, 1", "ZIGZAG, Y, CUSP, 0.05");
     let (mut cl, target) =

@@ -237,3 +237,46 @@ fn what_is_shrunk_stays_inside_by_that_much() {
         }
     }
 }
+
+/// Least height above `q` of a cutter let down at places of a grid, mm.
+fn lowest_over(tree: &SurfaceTree, cutter: &Cutter, q: Point3) -> f64 {
+    const PARTS: i32 = 24;
+    let mut best = f64::INFINITY;
+    for k in 0..(2 * PARTS + 1) * (2 * PARTS + 1) {
+        let [i, j] =
+            [k / (2 * PARTS + 1), k % (2 * PARTS + 1)].map(|i| f64::from(i - PARTS) / f64::from(PARTS));
+        let (x, y) = (q.x + i * cutter.radius(), q.y + j * cutter.radius());
+        let (rest, profile) = (cutter.drop(tree, x, y, None), cutter.profile(math::hypot(q.x - x, q.y - y)));
+        if let (Some(rest), Some(p)) = (rest, profile) {
+            best = best.min(rest.centre.z + p.height - q.z);
+        }
+    }
+    best
+}
+
+#[test]
+fn what_a_cutter_comes_to_is_what_some_place_lets_it_take() {
+    use super::reach::{Reach, Reacher};
+    let mut told = [0, 0, 0];
+    for tree in [hollow(), hills()] {
+        for cutter in [Cutter::bull(5.0, 0.0), Cutter::bull(5.0, 1.2), Cutter::ball(9.0)] {
+            let mut reacher = Reacher::new(&tree, &cutter, 0.0);
+            for k in 0..6u32 {
+                let [u, v] = [k * 5 % 7, k * 3 % 8].map(|i| 0.08 + 0.12 * f64::from(i));
+                let jet = tree.net().patches()[0].jet(u, v);
+                let p = jet.p + jet.normal().expect("a normal") * 0.05;
+                let found = reacher.comes_to(p);
+                let lowest = lowest_over(&tree, &cutter, p);
+                match found {
+                    // No place takes it, so none of the grid does.
+                    Reach::Nowhere => assert!(lowest > 0.0, "{cutter:?} {p:?} {lowest}"),
+                    // The grid is coarse: it comes near.
+                    Reach::Somewhere => assert!(lowest < 0.25, "{cutter:?} {p:?} {lowest}"),
+                    Reach::Unknown => assert!(lowest.abs() < 0.05, "{cutter:?} {p:?} {lowest}"),
+                }
+                told[found as usize] += 1;
+            }
+        }
+    }
+    assert!(told[0] > 4 && told[1] > 1 && told[2] < 3, "{told:?}");
+}
