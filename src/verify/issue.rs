@@ -111,7 +111,7 @@ fn operations(case: &Case<'_>, proofs: Proofs) -> Vec<OperationProof> {
                 of.into = Some(proof.into);
                 of.out = Some(proof.out);
                 of.blocks = proof.blocks;
-                of.surface = Some(proof);
+                of.surface = Some(*proof);
             }
             Found::Cleared(into, proof) => {
                 of.into = Some(into);

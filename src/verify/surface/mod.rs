@@ -38,7 +38,7 @@ pub(super) struct Proof {
 /// It depends on what the operation is for.
 #[derive(Debug)]
 pub(super) enum Found {
-    Finished(SurfaceProof),
+    Finished(Box<SurfaceProof>),
     /// With the deepest way into what is to be left.
     Cleared(Deviation, ClearingProof),
 }
@@ -85,7 +85,7 @@ pub(super) fn all(case: &Case<'_>) -> (Vec<Finding>, Vec<Proof>) {
                 } else {
                     remains::check((index, operation), finish, &swept.passes, &mut findings)
                 };
-                Found::Finished(proof(finish, &swept, &cover))
+                Found::Finished(Box::new(proof(finish, &swept, &cover)))
             }
         };
         if finish.tree.is_exhausted() {
