@@ -29,16 +29,18 @@ pub struct Closer {
 
 impl Closer {
     /// Asks for lower cusps in an operation (by its index) at some places: `share` counts on top of what was asked before.
-    /// `everywhere`: all over the operation's surface, by the least of the shares.
+    /// `everywhere`: by the same share all over the operation's surface, too.
     pub fn add(&mut self, short: &[(usize, Place)], everywhere: bool) {
-        let asked: Vec<(usize, Place)> = short
-            .iter()
-            .map(|(operation, place)| {
-                let share = (place.share * self.of(*operation).share(place.at)).max(LEAST);
-                let reach = if everywhere { f64::INFINITY } else { place.reach };
-                (*operation, Place { reach, share, ..*place })
-            })
-            .collect();
+        let mut asked = Vec::new();
+        for (operation, place) in short {
+            let before = self.of(*operation);
+            let lower = |share: f64| (place.share * share).max(LEAST);
+            asked.push((*operation, Place { share: lower(before.share(place.at)), ..*place }));
+            if everywhere {
+                let share = lower(before.everywhere());
+                asked.push((*operation, Place { reach: f64::INFINITY, share, ..*place }));
+            }
+        }
         self.places.extend(asked);
     }
 
@@ -56,6 +58,13 @@ impl Shares {
     /// The share of the height of cusps that may be used at a point.
     pub(super) fn share(&self, p: Point3) -> f64 {
         self.0.iter().map(|place| place.share_at(p)).fold(1.0, f64::min)
+    }
+}
+
+impl Shares {
+    /// The share that may be used all over the surface.
+    fn everywhere(&self) -> f64 {
+        self.0.iter().filter(|place| place.reach.is_infinite()).map(|place| place.share).fold(1.0, f64::min)
     }
 }
 
@@ -88,7 +97,10 @@ mod tests {
         assert!((own.share(at) - 0.81).abs() < 1e-12);
         assert!((own.share(Point3::new(4.0, 2.0, 3.0)) - 0.905).abs() < 1e-12);
         assert_eq!(own.share(Point3::new(6.0, 2.0, 3.0)), 1.0);
-        closer.add(&asked, true);
-        assert!(closer.of(1).share(Point3::new(1e3, 0.0, 0.0)) < 0.8);
+        for share in [0.9, 0.81] {
+            closer.add(&asked, true);
+            assert!((closer.of(1).share(Point3::new(1e3, 0.0, 0.0)) - share).abs() < 1e-12);
+        }
+        assert!((closer.of(1).share(at) - 0.81 * 0.81).abs() < 1e-12);
     }
 }

@@ -37,7 +37,7 @@ pub struct Reacher<'a> {
 }
 
 /// Places at which the cutter is let down for one answer, at most.
-const MOST: u32 = 600;
+const MOST: u32 = 150;
 /// Points that are remembered.
 const REMEMBERED: usize = 48;
 /// What holds the cutter higher by less does not count, mm.
