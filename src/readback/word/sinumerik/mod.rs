@@ -3,12 +3,15 @@
 //! Its blocks are cut by a lexer of their own and executed by the same machine as all word-address programs. Names of the
 //! language (`SUPA`, `COMPCAD` …) stand among the G codes, from 1000 up.
 
-use super::block::letters;
+use super::block::{Block, letters};
 use super::codes::{G, Group, M, Mode};
 use super::controls::fanuc;
 use super::iso;
+use super::machine::Machine;
+use super::motion::Target;
 use super::rules::{Cycles, Dwell, FeedReset, Frame, Language, RotaryFeed, Rules};
-use crate::readback::FeedMode;
+use crate::readback::out::Out;
+use crate::readback::{FeedMode, Follow, TracePath};
 
 mod cycles;
 mod lexer;
@@ -17,6 +20,33 @@ mod through;
 
 pub(super) use cycles::Modal;
 pub(in crate::readback::word) use lexer::read;
+
+impl Machine<'_> {
+    /// A block along a curve that is made of its words; where none can be made of them, that is a fault.
+    fn along<S: Follow>(
+        &mut self,
+        block: &Block,
+        (axes, used): (u32, &mut u32),
+        out: &mut Out<'_, S>,
+        path: impl FnOnce(&Self, &Target, &mut Out<'_, S>) -> Result<TracePath, String>,
+    ) {
+        *used |= axes;
+        let target = self.target(block, out);
+        if !self.feed_is_there(block, out) {
+            return self.arrive(&target);
+        }
+        match path(self, &target, out) {
+            Ok(path) => {
+                let from = self.departure(&target);
+                self.emit(path, from, &target, false, out);
+            }
+            Err(fault) => {
+                out.fault(fault);
+                self.arrive(&target);
+            }
+        }
+    }
+}
 
 /// Words of a block that no other control has.
 #[derive(Debug, Clone, Default)]

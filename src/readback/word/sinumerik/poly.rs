@@ -38,21 +38,7 @@ impl Machine<'_> {
         used: &mut u32,
         out: &mut Out<'_, S>,
     ) {
-        *used |= axes;
-        let target = self.target(block, out);
-        if !self.feed_is_there(block, out) {
-            return self.arrive(&target);
-        }
-        match self.polynomial_path(block, &target) {
-            Ok(path) => {
-                let from = self.departure(&target);
-                self.emit(path, from, &target, false, out);
-            }
-            Err(fault) => {
-                out.fault(fault);
-                self.arrive(&target);
-            }
-        }
+        self.along(block, (axes, used), out, |machine, target, _| machine.polynomial_path(block, target));
     }
 
     fn polynomial_path(&self, block: &Block, target: &Target) -> Result<TracePath, String> {

@@ -20,31 +20,20 @@ impl Machine<'_> {
         used: &mut u32,
         out: &mut Out<'_, S>,
     ) {
-        *used |= axes;
-        let target = self.target(block, out);
-        if !self.feed_is_there(block, out) {
-            return self.arrive(&target);
-        }
-        let from = self.state.position;
-        let between = self.between(block, out);
-        let path = match between {
-            None => Err("CIP without a place between: I1=, J1=, K1=".to_owned()),
-            Some(_) if !self.state.known[..3].iter().all(|k| *k) => {
-                Err("an arc from a position that is not known".to_owned())
+        self.along(block, (axes, used), out, |machine, target, out| {
+            let from = machine.state.position;
+            let between = machine
+                .between(block, out)
+                .ok_or_else(|| "CIP without a place between: I1=, J1=, K1=".to_owned())?;
+            if !machine.state.known[..3].iter().all(|k| *k) {
+                return Err("an arc from a position that is not known".to_owned());
             }
-            Some(_) if from[ROTARY] != 0.0 || target.to[ROTARY] != 0.0 => {
-                Err("CIP with a table that is turned".to_owned())
+            if from[ROTARY] != 0.0 || target.to[ROTARY] != 0.0 {
+                return Err("CIP with a table that is turned".to_owned());
             }
-            Some(between) => circle(place(&from), between, place(&target.to))
-                .ok_or_else(|| "CIP: its three places lie in a line".to_owned()),
-        };
-        match path {
-            Ok(path) => self.emit(path, from, &target, false, out),
-            Err(message) => {
-                out.fault(message);
-                self.arrive(&target);
-            }
-        }
+            circle(place(&from), between, place(&target.to))
+                .ok_or_else(|| "CIP: its three places lie in a line".to_owned())
+        });
     }
 
     /// The place between; axes without a word keep where the arc starts.
