@@ -197,10 +197,8 @@ impl<'a> Fitter<'a> {
 
     fn vertex(&self, station: usize, off: f64) -> Option<Vertex> {
         let range = (self.task.low, self.task.high);
-        {
-            let contact = self.chart.contact(station);
-            self.task.lattice.vertex(&contact, off, range, self.task.lattice.sideways(contact.normal))
-        }
+        let (contact, lattice) = (self.chart.contact(station), &self.task.lattice);
+        lattice.vertex(&contact, off, range, lattice.sideways(contact.normal))
     }
 
     fn curvatures(&self, (i, p): (usize, &Vertex), (j, q): (usize, &Vertex)) -> Option<Curvatures> {
