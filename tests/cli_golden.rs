@@ -226,6 +226,8 @@ fn what_a_test_file_gives_is_shown_in_it() {
             "──── part.test.toml:3:31",
         ),
         ("posts = [\"fanuc\", \"Fanuc\"]\n", 2, "part.test.toml:1:19: error[E0955]"),
+        ("post-set = { 'numbers.plus' = 'no' }\n", 2, "part.test.toml:1:31: error[E0704]"),
+        ("[post-set]\n'options.WCZ' = '7'\n", 2, "part.test.toml:2:17: error[E0713]"),
     ];
     for (text, status, place) in cases {
         scratch.write("part.test.toml", text);
@@ -250,6 +252,8 @@ fn a_golden_file_that_cannot_be_read_is_not_a_new_one() {
         assert_eq!(code(&output), 2, "{}", stdout(&output));
         assert!(stderr(&output).contains("E0901") && stderr(&output).contains("part.fanuc.golden.nc"));
     }
+    // Other tests do not need it.
+    assert_eq!(code(&scratch.run(&["test", "--filter", "linuxcnc"])), 0);
     assert!(link.is_symlink());
     // What a killed process left is no golden file.
     std::fs::remove_file(&link).expect("removed");
@@ -339,6 +343,24 @@ fn diff_says_what_it_cannot_compare() {
         assert_eq!(code(&output), status, "{args:?}: {}", stderr(&output));
         assert!(stderr(&output).contains(id), "{args:?}: {}", stderr(&output));
     }
+}
+
+#[test]
+fn diff_tells_what_it_could_follow_and_takes_tools_by_any_name() {
+    let scratch = Scratch::new("diff-names");
+    let program = |tool: &str, more: &str| {
+        format!("T=\"{tool}\"\nM6\nD1\nS1000 M3\nG0 G90 G17 G40 G710 X0 Y0 Z5\nG1 Z-1 F100\n{more}M30\n")
+    };
+    scratch.write("a.mpf", program("MILL 10", "")).write("b.mpf", program("Mill 12", ""));
+    let diff = |a: &str, b: &str| scratch.run(&["diff", a, b, "--post", "sinumerik"]);
+    assert_eq!(code(&diff("a.mpf", "a.mpf")), 0, "{}", stderr(&diff("a.mpf", "a.mpf")));
+    let other = diff("a.mpf", "b.mpf");
+    assert_eq!((code(&other), stdout(&other).starts_with("tool: ")), (3, true), "{}", stdout(&other));
+    scratch.write("c.mpf", program("MILL 10", "CYCLE999(1)\n"));
+    let broken = diff("a.mpf", "c.mpf");
+    assert_eq!(code(&broken), 4);
+    let said = "not compared as a whole: the control complains of 0 blocks of a.mpf and 1 of c.mpf\n";
+    assert!(stdout(&broken).starts_with(said), "{}", stdout(&broken));
 }
 
 #[test]

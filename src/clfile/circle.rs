@@ -5,6 +5,7 @@
 //! with a warning; beyond that the record and its points contradict each other, which is an error.
 
 use super::grammar::Statement;
+use super::producer::Producer;
 use super::reader::Reader;
 use crate::cl::{Circle, RecordKind};
 use crate::diag::codes::foreign as codes;
@@ -17,6 +18,8 @@ const TRUST: f64 = 0.005;
 const SPIRAL: f64 = 0.1;
 /// See [`SPIRAL`].
 const SPIRAL_SHARE: f64 = 0.02;
+/// Angle of an arc that is rounding, radians; or that of [`TRUST`] if that is more.
+const ANGLE_ROUNDING: f64 = 0.002;
 /// Full turns of one record at most.
 const MOST_TURNS: f64 = 10_000.0;
 
@@ -27,8 +30,8 @@ pub(super) struct Pending {
     axis: Vec3,
     radius: Option<f64>,
     turns: u32,
-    /// It is known to be less than half a turn, even where its end is printed as its start.
-    short: bool,
+    /// Degrees that it turns, where the record says so.
+    angle: Option<f64>,
     /// Points so far, where there may be many.
     points: Vec<Point3>,
 }
@@ -73,7 +76,8 @@ impl Reader<'_> {
         if !(length > 0.0 && length.is_finite()) {
             return self.complain(&codes::BAD_RECORD, "the circle's axis has no length".to_owned());
         }
-        let times = s.after("TIMES").or_else(|| s.after("ANGLE").map(turns_of)).unwrap_or(1.0);
+        let angle = s.after("ANGLE").or_else(|| self.angle_of_autodesk(rest));
+        let times = s.after("TIMES").or_else(|| angle.map(turns_of)).unwrap_or(1.0);
         if !(1.0..=MOST_TURNS).contains(&times) || times.fract() != 0.0 {
             let word = s.major();
             let message = format!("{word} with {times} turns: a whole number of 1 to {MOST_TURNS}");
@@ -85,15 +89,65 @@ impl Reader<'_> {
             axis: axis / length,
             radius: radius.map(|r| r.abs() * self.state.scale).filter(|r| *r > 0.0),
             turns: (times - 1.0) as u32,
-            short: s.after("ANGLE").is_some_and(|angle| angle.abs() < 180.0),
+            angle,
             points: Vec::new(),
         });
+    }
+
+    /// `CIRCLE/ x, y, z, i, j, k, r, degrees, 0, 0, 0`, as the posts of Autodesk for CAMplete write it.
+    fn angle_of_autodesk(&self, rest: &[f64]) -> Option<f64> {
+        match rest {
+            [_, angle, 0.0, 0.0, 0.0] if self.producer == Producer::Plain && *angle > 0.0 => Some(*angle),
+            _ => None,
+        }
+    }
+
+    /// Some posts give the axis of the plane whatever the sense of the arc: where the angle that the record says is that of
+    /// the arc about the other axis, this is meant, and so it is for arcs of the same file whose angle cannot tell.
+    fn turn_by_angle(&mut self, pending: &mut Pending, start: Point3, to: Point3) {
+        let Some(said) = pending.angle else { return };
+        if said < 0.0 {
+            pending.axis = -pending.axis;
+            return;
+        }
+        let about = pending.angle(start, to);
+        let room = (4.0 * TRUST / pending.place(start).0.max(TRUST)).max(ANGLE_ROUNDING).min(TAU / 8.0);
+        let off = |turn: f64| {
+            let rest = (said.to_radians() - turn).rem_euclid(TAU);
+            rest.min(TAU - rest)
+        };
+        let (along, against) = (off(about) <= room, off(-about) <= room);
+        if along == against {
+            if along && self.state.axes_of_planes {
+                pending.axis = -pending.axis;
+            } else if !along {
+                let message = format!(
+                    "the arc turns by {:.2} degrees about its axis from its start to its end, and the record says {said}: \
+                     its points and its axis are trusted",
+                    about.to_degrees()
+                );
+                self.complain(&codes::ARC_NOT_TRUSTED, message);
+            }
+            return;
+        }
+        self.state.axes_of_planes = against;
+        if against {
+            let message = format!(
+                "the arc turns by {said} degrees as its record says, which is against its axis: it is taken to be clockwise \
+                 about it"
+            );
+            self.complain(&codes::ARC_NOT_TRUSTED, message);
+            pending.axis = -pending.axis;
+        }
     }
 
     /// A point after a circle.
     pub(super) fn on_circle(&mut self, to: Point3) {
         if !self.producer.many_points() {
-            if let Some(pending) = self.state.circle.take() {
+            if let Some(mut pending) = self.state.circle.take() {
+                if let Some(start) = self.state.at {
+                    self.turn_by_angle(&mut pending, start, to);
+                }
                 self.arc_to(&pending, to);
             }
             return;
@@ -177,7 +231,9 @@ impl Reader<'_> {
             self.state.at = Some(to);
             return;
         };
-        if pending.short && (to - start).norm() <= TRUST {
+        // Even where its end is printed as its start.
+        let short = pending.angle.is_some_and(|angle| angle.abs() < 180.0);
+        if short && (to - start).norm() <= TRUST {
             return self.cut_to(to);
         }
         let (r0, _) = pending.place(start);
@@ -220,7 +276,7 @@ impl Reader<'_> {
 
     /// An arc whose circle, sense and end are known.
     pub(super) fn known_arc(&mut self, centre: Point3, axis: Vec3, radius: f64, turns: u32, to: Point3) {
-        let pending = Pending { centre, axis, radius: Some(radius), turns, short: false, points: Vec::new() };
+        let pending = Pending { centre, axis, radius: Some(radius), turns, angle: None, points: Vec::new() };
         self.arc_to(&pending, to);
     }
 

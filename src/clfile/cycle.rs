@@ -88,7 +88,7 @@ pub(super) const KINDS: &[(&[&str], Action)] = &[
     (&["FACE", "SPOTFC", "SPTFAC", "CBORE", "COUNTR"], Action::Face),
     (&["DEEP", "DEEP2", "DEEPHL", "PECK"], Action::Deep),
     (&["BRKCHP", "BRKCHIP", "BREAK", "CHPBRK", "CHIP"], Action::ChipBreak),
-    (&["TAP"], Action::Tap),
+    (&["TAP", "RIGID"], Action::Tap),
     (&["BORE"], Action::Bore),
     (&["REAM"], Action::Ream),
 ];

@@ -142,7 +142,7 @@ pub fn without_number(text: &str) -> &str {
 }
 
 /// Words that take the rest of the line as text.
-const RAW: [&str; 11] = [
+const RAW: [&str; 12] = [
     "PARTNO",
     "PPRINT",
     "TPRINT",
@@ -154,6 +154,7 @@ const RAW: [&str; 11] = [
     "DISPLY",
     "LEADER",
     "TITLE",
+    "CSI_PROGRAM_COMMENT",
 ];
 
 /// Whether a record is raw text after its word.

@@ -287,11 +287,21 @@ impl Reader<'_> {
                 self.state.rapid = true;
                 self.move_to(p);
             }
-            None => self.soften(
-                &codes::NOT_CARRIED_OUT,
-                "GOHOME cannot be carried out: the file does not say where home is".to_owned(),
-                Some("give it a point, or put FROM at the start".to_owned()),
-            ),
+            // As the last move it is what the end of every post's program says.
+            None => self.state.home = Some(self.span),
         }
+    }
+
+    /// The tool went home, nobody knows where, and moves on.
+    pub(super) fn move_from_home(&mut self) {
+        let Some(home) = self.state.home.take() else { return };
+        let span = core::mem::replace(&mut self.span, home);
+        self.soften(
+            &codes::NOT_CARRIED_OUT,
+            "GOHOME cannot be carried out: the file does not say where home is, and moves on from there"
+                .to_owned(),
+            Some("give it a point, or put FROM at the start".to_owned()),
+        );
+        self.span = span;
     }
 }

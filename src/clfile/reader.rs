@@ -283,7 +283,7 @@ impl<'t> Reader<'t> {
                 self.settle();
                 self.emit(RecordKind::Insert(text.to_owned()));
             }
-            "PPRINT" | "TPRINT" | "INSERT" => {
+            "PPRINT" | "TPRINT" | "INSERT" | "CSI_PROGRAM_COMMENT" => {
                 self.settle();
                 if !text.is_empty() {
                     self.emit(RecordKind::Comment(text.to_owned()));
@@ -409,6 +409,19 @@ impl<'t> Reader<'t> {
 
     /// Adds a record; its origin is the record in hand.
     pub(super) fn emit(&mut self, kind: RecordKind) {
+        if self.state.home.is_some() {
+            match kind {
+                // It goes to where tools are changed from anywhere.
+                RecordKind::LoadTool(_) => self.state.home = None,
+                RecordKind::From(_)
+                | RecordKind::Rapid(_)
+                | RecordKind::Linear(_)
+                | RecordKind::Circle(_)
+                | RecordKind::Spline(_)
+                | RecordKind::Hole(_) => self.move_from_home(),
+                _ => {}
+            }
+        }
         let origin = match self.origin {
             Some(origin) => origin,
             None => {

@@ -6,6 +6,7 @@ use super::nurbs::Spans;
 use super::tool::{Data, Load};
 use crate::geom::{Point3, Vec3};
 use crate::ir::{Band, Coolant, Feed, Spindle};
+use crate::source::Span;
 
 /// Tolerance of a file that states none, mm: of arcs and curves, on either side.
 const BAND: f64 = 0.01;
@@ -43,6 +44,10 @@ pub(super) struct State {
     pub load: Option<Load>,
     pub loaded: Option<crate::arena::Handle<crate::ir::Tool>>,
     pub circle: Option<Pending>,
+    /// `GOHOME`, where the file does not say where home is, after the last move.
+    pub home: Option<Span>,
+    /// Arcs give the axis of their plane, and turn clockwise about it.
+    pub axes_of_planes: bool,
     pub cycle: Option<Asked>,
     /// A cycle is in force that could not be understood: its holes are no cuts either.
     pub cycle_failed: bool,
@@ -92,6 +97,8 @@ impl State {
             load: None,
             loaded: None,
             circle: None,
+            home: None,
+            axes_of_planes: false,
             cycle: None,
             cycle_failed: false,
             nurbs: None,

@@ -75,6 +75,7 @@ const HARMLESS: &[&str] = &[
     "OPERATION",
     "MCS2",
     "CSI_TOOL_PATH",
+    "CSI_PATH_TOLERANCE",
 ];
 
 const MATTERS: &[(&str, &str)] = &[

@@ -1,5 +1,6 @@
 //! `partwright diff`.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use super::args::golden::DiffArgs;
@@ -27,7 +28,7 @@ pub fn diff(args: &DiffArgs, messages: Messages) -> Result<Status, Diagnostic> {
     let (a, b) = (read(&args.a)?, read(&args.b)?);
     let tolerance = Tolerance { distance: args.tolerance, rate: args.rate_tolerance / 100.0 };
     let rotary = args.rotary.map(|letter| Rotary { letter: letter.to_ascii_uppercase(), reversed: false });
-    let setup = MachineSetup { rotary, ..MachineSetup::default() };
+    let setup = MachineSetup { rotary, tool_names: tool_names([&a, &b]), ..MachineSetup::default() };
     let compared = motion_diff::compare([&a, &b], &control, &setup, tolerance);
     let comparison =
         compared.map_err(|unknown| Diagnostic::global(&codes::NOT_EXECUTABLE, unknown.to_string()))?;
@@ -85,8 +86,32 @@ fn complain(comparison: &Comparison, args: &DiffArgs, messages: Messages) {
     }
 }
 
+/// Numbers of tools that are called by name stand above those that have one.
+const NAMED: u32 = 100_000_001;
+
+/// A tool table with every name in quotes.
+fn tool_names(programs: [&[u8]; 2]) -> Vec<(String, u32)> {
+    let quoted = |text: &[u8]| -> Vec<String> {
+        let lines = text.split(|b| *b == b'\n').filter(|line| line.contains(&b'"'));
+        let names = lines.filter_map(|line| line.split(|b| *b == b'"').nth(1));
+        let names = names.map(|name| String::from_utf8_lossy(name).into_owned());
+        // Some controls take capitals for small letters, others do not.
+        names.flat_map(|name| [name.to_uppercase(), name]).collect()
+    };
+    let names: BTreeSet<String> = programs.into_iter().flat_map(quoted).collect();
+    names.into_iter().zip(NAMED..).collect()
+}
+
 fn text(comparison: &Comparison, args: &DiffArgs) -> String {
     let (a, b) = (args.a.to_string_lossy(), args.b.to_string_lossy());
+    if !comparison.is_executable() {
+        let [of_a, of_b] = comparison.faults.each_ref().map(Vec::len);
+        let rest = motion_print::text(comparison, motion_print::Names { a: &a, b: &b });
+        let rest = if rest.is_empty() { "what can be followed is the same\n".to_owned() } else { rest };
+        return format!(
+            "not compared as a whole: the control complains of {of_a} blocks of {a} and {of_b} of {b}\n{rest}"
+        );
+    }
     if comparison.is_same() {
         let [of_a, of_b] = comparison.moves;
         return format!(

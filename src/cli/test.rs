@@ -37,16 +37,16 @@ pub fn test(args: &TestArgs, messages: Messages) -> Result<Status, Diagnostic> {
     if trouble != Status::Done {
         return Ok(trouble);
     }
-    let mut run = match judge(&found, tested) {
-        Ok(run) => run,
-        Err(unreadable) => {
-            messages.show(&unreadable, &SourceMap::default());
-            return Ok(Status::Trouble);
-        }
-    };
+    let (mut run, mut unreadable) = judge(&found, tested);
     if let Some(filter) = &args.filter {
         run.outcomes.retain(|o| o.name().contains(filter.as_str()));
         run.skipped.clear();
+        unreadable.retain(|(name, _)| run.outcomes.iter().any(|o| o.golden == *name));
+    }
+    if !unreadable.is_empty() {
+        let errors: Vec<Diagnostic> = unreadable.into_iter().map(|(_, error)| error).collect();
+        messages.show(&errors, &SourceMap::default());
+        return Ok(Status::Trouble);
     }
     if run.outcomes.is_empty() {
         return Err(nothing(args));
@@ -128,14 +128,14 @@ fn lacks_post(made: &Made) -> bool {
     made.build.diagnostics.iter().any(|d| d.code.id == command::NO_POST.id)
 }
 
-/// The verdict of every test, in order; nothing can be said when a golden file cannot be read.
-fn judge(found: &Found, tested: Vec<Tested>) -> Result<Run, Vec<Diagnostic>> {
+/// The verdict of every test, in order, and the golden files that cannot be read: of theirs nothing can be said.
+fn judge(found: &Found, tested: Vec<Tested>) -> (Run, Vec<(String, Diagnostic)>) {
     let mut run = Run::default();
     let included = included(&tested);
     let unreadable = RefCell::new(Vec::new());
     let read = |name: &str| {
         let golden = found.golden(name)?;
-        golden.map_err(|error| unreadable.borrow_mut().push(error)).ok()
+        golden.map_err(|error| unreadable.borrow_mut().push((name.to_owned(), error))).ok()
     };
     for one in &tested {
         let Ok(made) = &one.made else { continue };
@@ -158,8 +158,7 @@ fn judge(found: &Found, tested: Vec<Tested>) -> Result<Run, Vec<Diagnostic>> {
     let orphans: Vec<Outcome> =
         found.golden_names().filter(orphan).map(|name| orphaned(name, &tested)).collect();
     run.outcomes.extend(orphans);
-    let unreadable = unreadable.into_inner();
-    if unreadable.is_empty() { Ok(run) } else { Err(unreadable) }
+    (run, unreadable.into_inner())
 }
 
 fn made_all(outcome: &Outcome) -> bool {

@@ -83,9 +83,9 @@ pub fn make(main: &str, files: &dyn FileProvider, test: Option<TestFile<'_>>) ->
     let plans = plan(test.map_or(&own, |t| t.sidecar), main);
     let one = |(index, plan): (usize, Plan)| {
         let mut build = driver::build(main, files, &plan.options);
-        if let Some(test) = test.filter(|_| build.diagnostics.iter().any(|d| d.primary.is_none())) {
+        if let Some(test) = test.filter(|_| !build.diagnostics.is_empty()) {
             let file = build.sources.add(test.name, test.text);
-            sidecar::locate(&mut build.diagnostics, (test.sidecar, test.text, file), main, index);
+            sidecar::locate(&mut build, (test.sidecar, test.text, file), main, index);
         }
         Made { plan, build }
     };

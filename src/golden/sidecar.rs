@@ -9,6 +9,8 @@ use toml::de::{DeTable, DeValue};
 
 use crate::diag::codes::tools as codes;
 use crate::diag::{self, Diagnostic, Label, did_you_mean};
+use crate::driver::Build;
+use crate::post;
 use crate::source::{FileId, SourceMap, Span};
 
 /// How a program is tested.
@@ -116,20 +118,29 @@ fn join(path: &str, key: &str) -> String {
     if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") }
 }
 
-/// Shows messages about what the test file gives (posts, definitions, overrides), and that have no place, where it does.
-/// `file` is the test file in the sources of the messages; `index` that of the variant, when there are any.
+/// Shows messages about what the test file gives where it does: about posts and definitions, which have no place, and
+/// about overrides of posts. `file` is the test file in the sources of the messages; `index` that of the variant, when
+/// there are any.
 pub fn locate(
-    diagnostics: &mut [Diagnostic],
+    build: &mut Build,
     (sidecar, text, file): (&Sidecar, &str, FileId),
     program: &str,
     index: usize,
 ) {
     let places = Places::of(text);
     let mentions = sidecar.mentions(program, index);
-    for diagnostic in diagnostics.iter_mut().filter(|d| d.primary.is_none()) {
-        let about = mentions.iter().find(|(_, name)| names(&diagnostic.message, name));
-        if let Some(span) = about.and_then(|(path, _)| places.span(path, file)) {
-            diagnostic.primary = Some(Label { span, message: String::new() });
+    for diagnostic in &mut build.diagnostics {
+        if diagnostic.primary.is_none() {
+            let about = mentions.iter().find(|(_, name)| names(&diagnostic.message, name));
+            let span = about.and_then(|(path, _)| places.span(path, file));
+            diagnostic.primary = span.map(|span| Label { span, message: String::new() });
+        }
+        for label in diagnostic.primary.iter_mut().chain(&mut diagnostic.labels) {
+            let key = post::override_key(label.span.file, &build.sources);
+            let path = key.and_then(|key| sidecar.override_path(key, index));
+            if let Some(span) = path.and_then(|path| places.span(&path, file)) {
+                label.span = span;
+            }
         }
     }
 }
@@ -145,6 +156,13 @@ fn names(message: &str, name: &str) -> bool {
 }
 
 impl Sidecar {
+    /// Where the file gives an override of a variant.
+    fn override_path(&self, key: &str, index: usize) -> Option<String> {
+        let own = self.variant.get(index).is_some_and(|v| v.post_set.contains_key(key));
+        let path = if own { format!("variant.{index}.post-set") } else { "post-set".to_owned() };
+        (own || self.post_set.contains_key(key)).then(|| join(&path, key))
+    }
+
     /// What a variant hands to the build: the path in the file and the name in messages.
     fn mentions(&self, program: &str, index: usize) -> Vec<(String, String)> {
         let mut found = Vec::new();

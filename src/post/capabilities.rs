@@ -3,7 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::dialect::{Cycle, Dialect, DwellUnit, FullCircleWords, Spec};
-use crate::diag::{Diagnostic, codes, did_you_mean};
+use super::options::SHARE;
+use crate::diag::{Diagnostic, codes};
 use crate::ir::CycleName;
 use crate::ir::{Machine, Rotary};
 use crate::target::{
@@ -12,8 +13,6 @@ use crate::target::{
 };
 use crate::units::{Angle, LengthUnit};
 
-/// Options of `MACHIN` that lowering knows; others are texts for templates.
-const SHARE: &str = "SHARE";
 /// Words of a place between the ends of an arc.
 pub(super) const BETWEEN: [&str; 3] = ["mx", "my", "mz"];
 /// The group of the work offsets.
@@ -34,7 +33,7 @@ impl Dialect {
             Some(rotary) => Some(self.rotary(rotary, unit)?),
             None => None,
         };
-        let options = self.options(machine);
+        let options = self.options(machine, unit)?;
         self.check_options(&options)?;
         self.check_dwell(&options)?;
         self.check_groups(&options, unit)?;
@@ -224,23 +223,10 @@ impl Dialect {
         for (key, value) in machine.iter().flat_map(|m| &m.options) {
             if key.eq_ignore_ascii_case(SHARE) {
                 share = self.share(value.as_deref().unwrap_or_default())?;
-            } else if !self.spec.options.keys().any(|k| k.eq_ignore_ascii_case(key)) {
-                return Err(self.unknown_option(key));
             }
         }
         let possible = !self.spec.path_control.tolerance.is_empty();
         Ok((possible && share > 0.0).then_some(PathTolerance { share }))
-    }
-
-    /// The post's options, with the machine's values: texts that stay on their line.
-    fn options(&self, machine: Option<&Machine>) -> BTreeMap<String, String> {
-        let mut options = self.spec.options.clone();
-        for (key, value) in machine.iter().flat_map(|m| &m.options) {
-            if let Some((_, slot)) = options.iter_mut().find(|(k, _)| k.eq_ignore_ascii_case(key)) {
-                *slot = value.clone().unwrap_or_else(|| "yes".to_owned());
-            }
-        }
-        options
     }
 
     fn share(&self, text: &str) -> Result<f64, Diagnostic> {
@@ -252,17 +238,5 @@ impl Dialect {
                 ),
             )
         })
-    }
-
-    fn unknown_option(&self, key: &str) -> Diagnostic {
-        let known = || self.spec.options.keys().map(String::as_str).chain([SHARE, "ROTABL"]);
-        let error = Diagnostic::global(
-            &codes::post::MACHINE_OPTION,
-            format!("the post `{}` has no option `{key}`", self.name),
-        );
-        match did_you_mean(key, known()) {
-            Some(near) => error.help(format!("did you mean `{near}`?")),
-            None => error.help(format!("its options are {}", known().collect::<Vec<_>>().join(", "))),
-        }
     }
 }

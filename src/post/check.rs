@@ -9,12 +9,12 @@ use super::variables::Scope;
 use crate::diag::{Code, Diagnostic, codes, did_you_mean};
 use crate::ir::CycleName;
 use crate::readback;
-use crate::source::Span;
+use crate::source::{SourceMap, Span};
 use crate::units::LengthUnit;
 
 /// Every error of a resolved dialect; `templates`: compile all of them, used or not.
 #[must_use]
-pub fn check(dialect: &Dialect, templates: bool) -> Vec<Diagnostic> {
+pub fn check(dialect: &Dialect, sources: &SourceMap, templates: bool) -> Vec<Diagnostic> {
     let mut errors = Vec::new();
     check_patterns(dialect, &mut errors);
     check_words(dialect, &mut errors);
@@ -28,6 +28,7 @@ pub fn check(dialect: &Dialect, templates: bool) -> Vec<Diagnostic> {
     check_control(dialect, &mut errors);
     if templates {
         check_templates(dialect, &mut errors);
+        super::options::check(dialect, sources, &mut errors);
     }
     errors
 }

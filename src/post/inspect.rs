@@ -94,7 +94,7 @@ fn collect(table: &Table, keys: &[Key], path: &str, sources: &SourceMap, out: &m
 }
 
 const fn is_table(shape: Shape) -> bool {
-    matches!(shape, Shape::Table(_) | Shape::Tables(_) | Shape::Texts)
+    matches!(shape, Shape::Table(_) | Shape::Tables(_) | Shape::Texts | Shape::TextListTable)
 }
 
 fn setting(table: &str, key: &str, entry: &Entry, sources: &SourceMap) -> Setting {

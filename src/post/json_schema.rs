@@ -53,6 +53,7 @@ fn shape(shape: Shape) -> Value {
         }
         Shape::Table(keys) => table(keys),
         Shape::Tables(keys) => json!({ "type": "object", "additionalProperties": table(keys) }),
+        Shape::TextListTable => json!({ "type": "object", "additionalProperties": texts() }),
         Shape::Texts => json!({ "type": "object", "additionalProperties": { "type": "string" } }),
     }
 }

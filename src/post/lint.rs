@@ -114,19 +114,10 @@ impl Lint<'_> {
 
     /// Options that no template reads.
     fn options(&mut self) {
-        let renderer = Renderer::new(&self.dialect.spec.comments);
-        let read: BTreeSet<String> =
-            templates(self.dialect).into_iter().flat_map(|(_, _, t)| renderer.variables(t)).collect();
-        if read.contains("options") {
-            return;
-        }
-        let spec = &self.dialect.spec;
-        let proof = spec.post.control_when.keys().filter_map(|when| Some(when.split_once('=')?.0.trim()));
-        let groups = spec.groups.values().map(|group| group.option.as_str());
-        let others: BTreeSet<&str> = proof.chain(groups).collect();
-        for name in spec.options.keys().filter(|name| !others.contains(name.as_str())) {
+        let Some(read) = self.dialect.read_options() else { return };
+        for name in self.dialect.spec.options.keys().filter(|name| !read.contains(*name)) {
             let path = format!("options.{name}");
-            if !read.contains(&path) && self.own(&path) {
+            if self.own(&path) {
                 self.unreachable(&path, format!("no template reads `{path}`"));
             }
         }

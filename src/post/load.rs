@@ -91,7 +91,7 @@ impl Loader<'_> {
         if !overrides.is_empty() {
             tree = tree::merge(tree, self.overrides(overrides)?);
         }
-        let user = self.user;
+        let user = self.user || !overrides.is_empty();
         let spec = typed(&tree).map_err(|message| vec![incomplete(name_or_path, &message)])?;
         let lineage = core::mem::take(&mut self.lineage);
         let dialect = Dialect {
@@ -104,7 +104,7 @@ impl Loader<'_> {
         if dialect.spec.post.is_abstract {
             return Err(vec![unknown(name_or_path, None)]);
         }
-        let errors = check::check(&dialect, user);
+        let errors = check::check(&dialect, self.sources, user);
         if errors.is_empty() { Ok(dialect) } else { Err(errors) }
     }
 }
@@ -120,9 +120,22 @@ pub(super) fn builtin_file(file: FileId) -> Option<(&'static str, &'static str)>
 /// The name of overrides in messages.
 const OVERRIDES: &str = "--post-set";
 
+/// The key that an override gives, when a place is in one.
+pub(crate) fn override_key(file: FileId, sources: &SourceMap) -> Option<&str> {
+    if !is_override(file, sources) {
+        return None;
+    }
+    sources.file(file).text.split_once(" = ").map(|(key, _)| key)
+}
+
 /// Whether a place is in the post file that was asked for, or in an override, not in what it inherits.
 pub(super) fn is_own(dialect: &Dialect, file: FileId, sources: &SourceMap) -> bool {
-    file == dialect.leaf || (builtin_file(file).is_none() && sources.file(file).name == OVERRIDES)
+    file == dialect.leaf || is_override(file, sources)
+}
+
+/// Whether a place is in an override.
+pub(super) fn is_override(file: FileId, sources: &SourceMap) -> bool {
+    builtin_file(file).is_none() && sources.file(file).name == OVERRIDES
 }
 
 /// Adds the built-in files that messages point into to `sources`, and points the messages there.
@@ -225,7 +238,10 @@ impl Loader<'_> {
         let (mut merged, mut errors) = (Table::new(), Vec::new());
         for (key, value) in overrides {
             let bare = format!("{key} = {value}\n");
-            let text = if bare.parse::<toml::Table>().is_ok() {
+            // Options are texts, also those that are numbers.
+            let option = key.trim_start().starts_with("options.");
+            let quoted = value.starts_with(['"', '\'']);
+            let text = if bare.parse::<toml::Table>().is_ok() && (quoted || !option) {
                 bare
             } else {
                 format!("{key} = {}\n", toml::Value::String(value.clone()))

@@ -36,6 +36,8 @@ pub enum Shape {
     Tables(&'static [Key]),
     /// A table of freely named texts.
     Texts,
+    /// A table of freely named lists of texts.
+    TextListTable,
 }
 
 /// One key.
@@ -98,6 +100,11 @@ pub const ROOT: &[Key] = &[
         "options",
         Shape::Texts,
         "values that templates read as `options.NAME`; `--post-set` and MACHIN options override them",
+    ),
+    key(
+        "option-values",
+        Shape::TextListTable,
+        "by the name of an option, the values that it may have: texts, `<integer>`, or `<z>` for numbers as the word `z` has them",
     ),
 ];
 

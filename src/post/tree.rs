@@ -181,6 +181,11 @@ fn check(entry: &Entry, shape: Shape, path: &str, errors: &mut Vec<Diagnostic>) 
                 check(inner, Shape::Text, &join(path, name), errors);
             }
         }
+        (Shape::TextListTable, Node::Table(table)) => {
+            for (name, inner) in table {
+                check(inner, Shape::TextList, &join(path, name), errors);
+            }
+        }
         (_, Node::Table(table)) => check_by_unit(entry, table, shape, path, errors),
         (_, Node::Leaf(value)) => {
             if let Err(wanted) = check_leaf(value, shape) {
@@ -304,6 +309,6 @@ pub fn describe(shape: Shape) -> String {
         Shape::TextList => "a list of texts".into(),
         Shape::TextLists => "a list of lists of texts".into(),
         Shape::Range => "a list of two numbers, the smaller first".into(),
-        Shape::Table(_) | Shape::Tables(_) | Shape::Texts => "a table".into(),
+        Shape::Table(_) | Shape::Tables(_) | Shape::Texts | Shape::TextListTable => "a table".into(),
     }
 }

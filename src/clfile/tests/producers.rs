@@ -281,6 +281,33 @@ fn arcs_of_iso_4343_have_an_angle() {
     assert_eq!(arc("90.", "0, 10, 5"), ("RC".to_owned(), Some(0)));
     assert_eq!(arc("360.", "10, 0, 5"), ("RC".to_owned(), Some(0)));
     assert_eq!(arc("450.", "0, 10, 3"), ("RC".to_owned(), Some(1)));
+    // The angle says the sense where the axis is that of the plane.
+    let sense = |record: &str, end: &str| {
+        let (cl, codes) = read(&framed(&format!(
+            "MODE/MILL\nMOVARC/ 9, 0, 5, 0, 0, 1, 1, ANGLE, 360\nGOTO/ 10, 0, 5\n{record}\nGOTO/ {end}"
+        )));
+        (circles(&cl).iter().map(|c| c.axis.z).collect::<Vec<_>>(), codes)
+    };
+    assert_eq!(
+        sense("MOVARC/ 0, 0, 5, 0, 0, 1, 10, ANGLE, 270", "0, 10, 5"),
+        (vec![1.0, -1.0], vec!["W1011"])
+    );
+    assert_eq!(sense("MOVARC/ 0, 0, 5, 0, 0, 1, 10, ANGLE, -270", "0, 10, 5"), (vec![1.0, -1.0], vec![]));
+    assert_eq!(
+        sense("CIRCLE/ 0, 0, 5, 0, 0, 1, 10, 270, 0.0, 0.0, 0.0", "0, 10, 5"),
+        (vec![1.0, -1.0], vec!["W1011"])
+    );
+    assert_eq!(
+        sense("CIRCLE/ 0, 0, 5, 0, 0, 1, 10, 90, 0.0, 0.0, 0.0", "0, 10, 5"),
+        (vec![1.0, 1.0], vec![])
+    );
+    assert_eq!(
+        sense("MOVARC/ 0, 0, 5, 0, 0, 1, 10, ANGLE, 200", "0, 10, 5"),
+        (vec![1.0, 1.0], vec!["W1011"])
+    );
+    let half =
+        "MOVARC/ 0, 0, 5, 0, 0, 1, 10, ANGLE, 270\nGOTO/ 0, 10, 5\nMOVARC/ 0, 0, 5, 0, 0, 1, 10, ANGLE, 180";
+    assert_eq!(sense(half, "0, -10, 5").0, [1.0, -1.0, -1.0]);
     // A short arc whose end is printed as its start is no full circle.
     assert_eq!(arc("0.01", "10, 0.0017, 5").0, "RL");
 }

@@ -90,6 +90,13 @@ pub const MACHINE_OPTION: Code = Code {
     page: include_str!("../../../docs/diagnostics/E0713.md"),
 };
 
+/// an option of a post does not have such a value.
+pub const OPTION_VALUE: Code = Code {
+    id: "E0714",
+    title: "an option of a post does not have such a value",
+    page: include_str!("../../../docs/diagnostics/E0714.md"),
+};
+
 /// All codes of this area.
 pub const ALL: &[&Code] = &[
     &UNKNOWN_POST,
@@ -105,4 +112,5 @@ pub const ALL: &[&Code] = &[
     &BAD_INSERT,
     &WORD_RANGE,
     &MACHINE_OPTION,
+    &OPTION_VALUE,
 ];

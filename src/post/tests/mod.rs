@@ -17,7 +17,7 @@ fn every_built_in_post_is_correct_and_compiles_all_its_templates() {
     for name in builtin_names() {
         let dialect = builtin(name);
         assert_eq!(dialect.name(), name);
-        let errors = check::check(&dialect, true);
+        let errors = check::check(&dialect, &crate::source::SourceMap::default(), true);
         assert!(errors.is_empty(), "{name}: {errors:#?}");
     }
 }

@@ -409,14 +409,13 @@ fn klartext_blocks_are_numbered_from_0_one_by_one_and_a_continued_block_once() {
 fn dwells_of_mach_are_in_the_unit_that_is_declared() {
     let with = |unit: &str| {
         let set = [("options.DWELL".to_owned(), unit.to_owned())];
-        load_with("mach3", &set, &MemoryFiles::default(), &mut SourceMap::default()).unwrap()
+        load_with("mach3", &set, &MemoryFiles::default(), &mut SourceMap::default())
     };
-    let sheet = Sheet::new(with("ms"), LengthUnit::Millimetre, None).rapid(0, 0, 0, 7);
+    let sheet = Sheet::new(with("ms").unwrap(), LengthUnit::Millimetre, None).rapid(0, 0, 0, 7);
     assert_eq!(sheet.event(BlockKind::Dwell(1.25)).rest(), ["G4 P1250"]);
-    let options = with("ms").capabilities(LengthUnit::Millimetre, None).unwrap().options;
-    assert_eq!(with("ms").control_with(&options), "mach3-ms");
-    let error = with("minutes").capabilities(LengthUnit::Millimetre, None).unwrap_err();
-    assert_eq!(error.code.id, "E0713");
+    let options = with("MS").unwrap().capabilities(LengthUnit::Millimetre, None).unwrap().options;
+    assert_eq!(with("ms").unwrap().control_with(&options), "mach3-ms");
+    assert_eq!(with("minutes").unwrap_err()[0].code.id, "E0714");
 }
 
 #[test]
@@ -452,8 +451,11 @@ fn no_text_leaves_its_comment_on_any_control() {
 
 #[test]
 fn options_cannot_bring_lines_of_their_own() {
-    let set = [("options.RETRACT".to_owned(), "\"0\\nM30\"".to_owned())];
-    let dialect = load_with("sinumerik", &set, &MemoryFiles::default(), &mut SourceMap::default()).unwrap();
+    let set = |key: &str| [(key.to_owned(), "\"0\\nM30\"".to_owned())];
+    let load = |post, key| load_with(post, &set(key), &MemoryFiles::default(), &mut SourceMap::default());
+    assert_eq!(load("sinumerik", "options.RETRACT").unwrap_err()[0].code.id, "E0714");
+    // Options without a list of values, too.
+    let dialect = load("fanuc", "options.WCS").unwrap();
     assert_eq!(dialect.capabilities(LengthUnit::Millimetre, None).unwrap_err().code.id, "E0713");
 }
 
@@ -464,4 +466,47 @@ fn every_post_says_how_sure_it_is_and_on_what_it_rests() {
         assert!(["interpreter", "manual", "published"].contains(&dialect.confidence()), "{name}");
         assert!(dialect.basis().len() > 10, "{name}");
     }
+}
+
+#[test]
+fn options_have_the_values_that_their_post_lists() {
+    let load = |post: &str, set: &[(&str, &str)]| {
+        let set: Vec<_> = set.iter().map(|(k, v)| ((*k).to_owned(), (*v).to_owned())).collect();
+        let shown = |errors: Vec<crate::diag::Diagnostic>| {
+            errors
+                .iter()
+                .map(|e| format!("{} {} {}", e.code.id, e.message, e.help.join(" ")))
+                .collect::<Vec<_>>()
+        };
+        let text = "inherits = \"marlin\"\n[options]\nSIDE = \"left\"\n[option-values]\nSIDE = [\"left\", \"right\"]\n\
+                    [templates]\noperation = \"; {{ options.SIDE }}\"\n[post.control-when]\n\"SIDE=rigth\" = \"marlin\"\n";
+        let files = MemoryFiles([("my.post.toml".to_owned(), text.to_owned())].into());
+        crate::post::load_with(post, &set, &files, &mut SourceMap::default()).map_err(shown)
+    };
+    assert_eq!(
+        load("apt-cl", &[("options.FLAVOUR", "nxx")]).unwrap_err(),
+        ["E0714 `nxx` is no value of the option `FLAVOUR`: it is `plain` or `nx` did you mean `nx`?"]
+    );
+    assert_eq!(
+        load("apt-cl", &[("options.FLAVOR", "nx")]).unwrap_err(),
+        ["E0713 the post `apt-cl` has no option `FLAVOR` did you mean `FLAVOUR`?"]
+    );
+    assert_eq!(
+        load("my.post.toml", &[]).unwrap_err(),
+        ["E0704 `rigth` is no value of the option `SIDE`: it is `left` or `right` did you mean `right`?"]
+    );
+    let errors = load("okuma", &[("options.RETRACT", "1e3")]).unwrap_err();
+    assert_eq!(
+        errors,
+        ["E0714 `1e3` is no value of the option `RETRACT`: it is a number as the word `z` has it "]
+    );
+    // Capitals do not matter, and numbers are spelled as their word spells them.
+    let chosen = |post: &str, name: &str, value: &str| {
+        let dialect = load(post, &[(&format!("options.{name}"), value)]).unwrap();
+        dialect.capabilities(LengthUnit::Millimetre, None).unwrap().options[name].clone()
+    };
+    assert_eq!(chosen("apt-cl", "FLAVOUR", "NX"), "nx");
+    assert_eq!(chosen("okuma", "RETRACT", "-10"), "-10.");
+    assert_eq!(chosen("heidenhain", "RETRACT", "12.5"), "+12.5");
+    assert_eq!(chosen("linuxcnc", "RETRACT", ""), "");
 }
