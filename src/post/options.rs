@@ -110,13 +110,16 @@ impl Dialect {
         unit: LengthUnit,
     ) -> Result<BTreeMap<String, String>, Diagnostic> {
         let mut options = self.spec.options.clone();
-        let mut given = BTreeSet::new();
+        let (mut given, mut bare) = (BTreeSet::new(), BTreeSet::new());
         for (key, value) in machine.iter().flat_map(|m| &m.options) {
             if !given.insert(key.to_ascii_uppercase()) {
                 return Err(Diagnostic::global(
                     &codes::post::MACHINE_OPTION,
                     format!("the option `{key}` is given twice"),
                 ));
+            }
+            if value.is_none() {
+                bare.insert(key.to_ascii_uppercase());
             }
             match options.iter_mut().find(|(k, _)| k.eq_ignore_ascii_case(key)) {
                 Some((_, slot)) => *slot = value.clone().unwrap_or_else(|| "yes".to_owned()),
@@ -127,6 +130,15 @@ impl Dialect {
         for (name, slot) in &mut options {
             *slot = self.spec.option_value(name, slot, unit).ok_or_else(|| {
                 let (message, help) = self.spec.no_such_value(name, slot);
+                let message = if bare.contains(&name.to_ascii_uppercase()) {
+                    message.replacen(
+                        "`yes` is no value of the option",
+                        "there is no value behind the option",
+                        1,
+                    )
+                } else {
+                    message
+                };
                 let error = Diagnostic::global(&codes::post::OPTION_VALUE, message);
                 help.into_iter().fold(error, Diagnostic::help)
             })?;

@@ -207,6 +207,7 @@ impl Analyser<'_> {
                 if let (None, ArgKind::Named { value, .. }) = (&value, &arg.kind) {
                     let message = "the value of an option is a number, a word or a text in quotes";
                     self.report(Diagnostic::new(&codes::WRONG_KIND, value.span, message));
+                    continue;
                 }
                 machine.options.push((key.to_uppercase(), value));
             }
