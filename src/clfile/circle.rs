@@ -111,7 +111,7 @@ impl Reader<'_> {
             return;
         }
         let about = pending.angle(start, to);
-        let room = (4.0 * TRUST / pending.place(start).0.max(TRUST)).max(ANGLE_ROUNDING).min(TAU / 8.0);
+        let room = (4.0 * TRUST / pending.place(start).0.max(TRUST)).clamp(ANGLE_ROUNDING, TAU / 8.0);
         let off = |turn: f64| {
             let rest = (said.to_radians() - turn).rem_euclid(TAU);
             rest.min(TAU - rest)

@@ -188,7 +188,7 @@ pub(super) fn check(dialect: &Dialect, sources: &SourceMap, errors: &mut Vec<Dia
             errors.push(help.into_iter().fold(error, Diagnostic::help));
         }
     }
-    for (when, _) in &spec.post.control_when {
+    for when in spec.post.control_when.keys() {
         check_when(dialect, when, errors);
     }
     check_names(dialect, sources, errors);
