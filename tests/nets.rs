@@ -80,8 +80,12 @@ fn nets() -> impl Strategy<Value = Net> {
 }
 
 fn built(definitions: &str, operation: &str) -> Build {
+    built_by("BALL, 6", definitions, operation)
+}
+
+fn built_by(cutter: &str, definitions: &str, operation: &str) -> Build {
     let text = format!(
-        "UNITS/ MM\nMACHIN/ LINUXCNC\n{definitions}\nT1 = CUTTER/ BALL, 6, NUMBER, 1\nLOADTL/ T1\nSPINDL/ 8000\n\
+        "UNITS/ MM\nMACHIN/ LINUXCNC\n{definitions}\nT1 = CUTTER/ {cutter}, NUMBER, 1\nLOADTL/ T1\nSPINDL/ 8000\n\
          FEDRAT/ 800\nINTOL/ 0\nOUTTOL/ 0.02\nCLEARP/ 30\nS1 = SURFAC/ N1, ZIGZAG, {operation}\nFINI\n"
     );
     let files = MemoryFiles([("part.apt".to_owned(), text)].into());
@@ -154,6 +158,54 @@ fn same(a: &Build, b: &Build, share: f64) -> Result<(), TestCaseError> {
 }
 
 const PASSES: [&str; 4] = ["U, STEP, 3", "V, STEP, 3", "X, STEP, 3", "Y, CUSP, 0.2"];
+
+/// A net that bends both ways, and less at one end than at the other.
+fn uneven() -> Net {
+    let heights = [0.0, 3.0, 2.0, 0.0, 1.0, 6.0, 4.0, 1.0, 1.0, 4.0, 5.0, 2.0, 0.0, 1.0, 2.0, 1.0];
+    let pole = |k: usize| [10.0 * (k / 4) as f64, 8.0 * (k % 4) as f64, heights[k]];
+    Net { rows: 4, columns: 4, poles: (0..16).map(pole).collect() }
+}
+
+const CUTTERS: [&str; 4] = ["FLAT, 6", "BULL, 8, 2", "BULL, 6, 1", "TAPER, 5, 1, ANGLE, 5"];
+
+/// Bent passes of every cutter are proven, and those that use the height of cusps up are no longer than others.
+#[test]
+fn bent_passes_of_every_cutter_are_proven_and_no_longer_than_straight_ones() {
+    let net = format!("N1 = {}", uneven().text());
+    for cutter in CUTTERS {
+        let proof = |operation: &str| {
+            let build = built_by(cutter, &net, operation);
+            outcome(&build).unwrap_or_else(|codes| panic!("{cutter} {operation}: {codes:?}"))
+        };
+        let bent = proof("ISOCSP, CUSP, 0.2");
+        assert!(bent.into.value <= 1e-6 && bent.out.value <= 0.02 + 1e-6, "{cutter}");
+        assert!(bent.left_bound <= 0.22 + 1e-4, "{cutter} {}", bent.left_bound);
+        for straight in ["V, CUSP, 0.2", "Y, CUSP, 0.2"] {
+            let other = proof(straight);
+            assert!(
+                bent.length <= 1.03 * other.length,
+                "{cutter} {straight}: {} {}",
+                bent.length,
+                other.length
+            );
+        }
+    }
+}
+
+/// Passes at half the distance are twice as long in all, and as long as the net is wide by the distance at least.
+#[test]
+fn passes_at_one_distance_lie_at_that_distance() {
+    let net = uneven();
+    for cutter in CUTTERS {
+        let [near, far] = ["CONST, STEP, 1.5", "CONST, STEP, 3"].map(|operation| {
+            let build = built_by(cutter, &format!("N1 = {}", net.text()), operation);
+            outcome(&build).unwrap_or_else(|codes| panic!("{cutter} {operation}: {codes:?}"))
+        });
+        let ratio = near.length / far.length;
+        assert!((1.75..2.1).contains(&ratio), "{cutter}: {} {}", near.length, far.length);
+        assert!(near.length > 30.0 * 24.0 / 1.5, "{cutter}: {}", near.length);
+    }
+}
 
 proptest! {
     #![proptest_config(ProptestConfig { cases: 12, failure_persistence: None, ..ProptestConfig::default() })]

@@ -304,7 +304,7 @@ impl Printer<'_> {
                 format!("ALONG V AT U {}", number(value))
             }
             Guide::Line { .. } => "OVER A STRAIGHT LINE".to_owned(),
-            Guide::Curve(_) => "OVER A CURVE".to_owned(),
+            Guide::Curve(_) | Guide::Plan(_) => "OVER A CURVE".to_owned(),
         };
         self.line(format_args!("$$ PASS {what}"));
         let mut contact = None;

@@ -163,7 +163,7 @@ impl Analyser<'_> {
     pub(super) fn surfac(&mut self, m: &Matched, name: Option<String>) {
         let tool = self.ready("SURFAC", m);
         let spacing = self.spacing(m);
-        let tool = tool.and_then(|tool| self.finisher(m, tool));
+        let tool = tool.and_then(|tool| self.solid(m, tool));
         let arcs = m.word("interpolation") == Some("CIRCUL");
         if arcs && !tool.is_none_or(|tool| self.in_planes(m, tool)) {
             return;
@@ -192,7 +192,7 @@ impl Analyser<'_> {
 
     /// `ROUGH/ net, OFFSET, leave …`.
     pub(super) fn rough_offset(&mut self, m: &Matched, name: Option<String>) {
-        let tool = self.ready("ROUGH", m).and_then(|tool| self.finisher(m, tool));
+        let tool = self.ready("ROUGH", m).and_then(|tool| self.solid(m, tool));
         let (Some(tool), Some(Entity::Net(net)), Some(leave)) = (tool, m.entity("net"), m.number("leave"))
         else {
             return;
@@ -264,23 +264,6 @@ impl Analyser<'_> {
             );
         }
         cusp.map(Spacing::Cusp)
-    }
-
-    /// The cutter, if it can finish a surface so.
-    fn finisher(&mut self, m: &Matched, tool: Handle<Tool>) -> Option<Handle<Tool>> {
-        let tool = self.solid(m, tool)?;
-        let cutter = &self.program.tools[tool];
-        let bends = matches!(along(m), Along::IsoCusp | Along::Const);
-        if !bends || cutter.solid().is_some_and(|s| s.is_ball()) {
-            return Some(tool);
-        }
-        let message = format!("ISOCSP and CONST are for ball-end cutters, and {} is none", cutter.name);
-        self.no_cutter(
-            m,
-            tool,
-            message,
-            "take passes along U, V, X or Y: they lie as close as `CUSP` asks for",
-        )
     }
 
     /// The cutter, if its shape is known.

@@ -44,6 +44,8 @@ pub enum Guide {
     },
     /// A curve in the net's parameters, along which the point of contact runs: cubic through these places.
     Curve(Arc<Vec<[f64; 2]>>),
+    /// A curve in plan, over which the axis of the cutter runs: cubic through these places, mm.
+    Plan(Arc<Vec<Point2>>),
 }
 
 impl Guide {
@@ -52,6 +54,7 @@ impl Guide {
     pub fn plan(&self, net: &Net, t: f64) -> Option<Point2> {
         match self {
             Guide::Over { axis, value, range, rim } => Some(over(net, (*axis, *value, *range, rim), t)),
+            Guide::Plan(places) => Some(through(places, t)),
             _ => None,
         }
     }
@@ -96,6 +99,10 @@ impl Track {
                 self.cutter.drop(&self.tree, p.x, p.y, hint)
             }
             Guide::Curve(places) => self.over(cubic(places, t)),
+            Guide::Plan(places) => {
+                let p = through(places, t);
+                self.cutter.drop(&self.tree, p.x, p.y, hint)
+            }
         }
     }
 
@@ -131,22 +138,33 @@ impl Track {
                 Guide::Over { axis: *axis, value: *value, range: (range.1, range.0), rim: *rim }
             }
             Guide::Curve(places) => Guide::Curve(Arc::new(places.iter().rev().copied().collect())),
+            Guide::Plan(places) => Guide::Plan(Arc::new(places.iter().rev().copied().collect())),
         };
         Track { tree: Arc::clone(&self.tree), guide, ..*self }
     }
 }
 
+/// Catmull and Rom's cubic through places in plan.
+fn through(places: &[Point2], t: f64) -> Point2 {
+    cubic_of(places.len(), &|j| [places[j].x, places[j].y], t).into()
+}
+
 /// Catmull and Rom's cubic through equidistant places.
 fn cubic(places: &[[f64; 2]], t: f64) -> [f64; 2] {
-    let Some(last) = places.len().checked_sub(1).filter(|n| *n > 0) else {
-        return places.first().copied().unwrap_or([0.0, 0.0]);
+    cubic_of(places.len(), &|j| places[j], t)
+}
+
+/// The same through so many places.
+fn cubic_of(places: usize, place: &dyn Fn(usize) -> [f64; 2], t: f64) -> [f64; 2] {
+    let Some(last) = places.checked_sub(1).filter(|n| *n > 0) else {
+        return if places == 1 { place(0) } else { [0.0, 0.0] };
     };
     let x = t.clamp(0.0, 1.0) * crate::math::count(last);
     // x lies in 0..=last, and floats saturate.
     let i = (x.floor() as usize).min(last - 1);
     let f = x - crate::math::count(i);
     core::array::from_fn(|k| {
-        let at = |j: usize| places[j.min(last)][k];
+        let at = |j: usize| place(j.min(last))[k];
         let (b, c) = (at(i), at(i + 1));
         let a = if i == 0 { 2.0 * b - c } else { at(i - 1) };
         let d = if i + 2 > last { 2.0 * c - b } else { at(i + 2) };

@@ -6,7 +6,7 @@
 
 use rayon::prelude::*;
 
-use crate::geom::surface::{Contact, Cutter, Track};
+use crate::geom::surface::{Contact, Cutter, SurfaceTree, Track};
 use crate::geom::{Point3, Vec3};
 use crate::math::count;
 use crate::plan::closer::Shares;
@@ -24,29 +24,57 @@ pub(super) struct Apart {
     pub shares: Shares,
 }
 
+/// What a cutter is let down along.
+pub(super) trait Course: Sync {
+    /// The contact at a share of it.
+    fn at(&self, share: f64, hint: Option<&Contact>) -> Option<Contact>;
+    /// About how long it is, mm.
+    fn length(&self) -> f64;
+    /// Whether it may bend where its neighbours do not.
+    fn bends(&self) -> bool;
+    /// The surface.
+    fn tree(&self) -> &SurfaceTree;
+}
+
+impl Course for Track {
+    fn at(&self, share: f64, hint: Option<&Contact>) -> Option<Contact> {
+        Track::at(self, share, hint)
+    }
+    fn length(&self) -> f64 {
+        let ends = [0.0, 1.0].map(|t| Track::at(self, t, None).map(|c| c.centre));
+        if let [Some(a), Some(b)] = ends { (b - a).norm() } else { 0.0 }
+    }
+    fn bends(&self) -> bool {
+        false
+    }
+    fn tree(&self) -> &SurfaceTree {
+        &self.tree
+    }
+}
+
 /// A pass and where the cutter is on it.
-struct Lane {
+pub(super) struct Lane<C> {
     /// Where it lies among the others, mm.
     at: f64,
-    track: Track,
+    pub track: C,
     /// Places at which the cutter was let down.
-    stations: Vec<Station>,
+    pub stations: Vec<Station>,
     /// The reference point's way, with chords that leave it by little; broken where nothing is touched.
-    way: Vec<Point>,
+    pub way: Vec<Point>,
 }
 
 /// A point of the reference point's way, and the share of the pass at which it is.
-type Point = (f64, Option<Point3>);
+pub(super) type Point = (f64, Option<Point3>);
 
 /// A place of a pass, as a share of it.
 #[derive(Clone, Copy)]
-struct Station {
-    share: f64,
-    contact: Option<Contact>,
+pub(super) struct Station {
+    pub share: f64,
+    pub contact: Option<Contact>,
 }
 
 /// Ridges are made so high, as a share of what is asked for: the rest is for what lies between the stations.
-const AIM: f64 = 0.87;
+pub(super) const AIM: f64 = 0.87;
 /// Ridges of this share of that are high enough.
 const HIGH: f64 = 0.8;
 /// Between passes the cutter is let down at so many places at least, and no farther apart than this share of its radius: where
@@ -55,7 +83,7 @@ const BETWEEN: (usize, f64) = (3, 0.12);
 /// Attempts at the place of one pass.
 const TRIES: u32 = 16;
 /// Passes closer than this are too close, mm.
-const CLOSEST: f64 = 2e-3;
+pub(super) const CLOSEST: f64 = 2e-3;
 /// Stations of a pass at first, an even number, and their distance as a share of the radius.
 const STATIONS: (usize, usize, f64) = (8, 400, 0.16);
 /// Between stations a pass leaves its chord, or the cubic through its neighbours, upwards by no more than this share of the
@@ -63,22 +91,29 @@ const STATIONS: (usize, usize, f64) = (8, 400, 0.16);
 const STRAIGHT: f64 = 0.04;
 /// … unless they were halved so often.
 const DEEPEST: u32 = 5;
+/// How much of what a bent pass leaves its chord by sideways counts.
+const BESIDE: f64 = 0.2;
 /// Where a cubic tells the way between two stations, it is followed by so many chords at most.
 const CHORDS: f64 = 64.0;
 /// Stations of all passes, tried ones included, before that is given up.
-const MOST: usize = 4_000_000;
+pub(super) const MOST: usize = 4_000_000;
 /// Stations with a ridge of this share of the highest are looked at closer, if their neighbours have less.
 const PEAK: f64 = 0.85;
 /// Stations that share their hints.
 const CHUNK: usize = 8;
 
 impl Apart {
-    /// Passes over a width, mm, each with its place; `make` lays the pass at a place.
+    /// The same for ridges that are `factor` times as high.
+    pub(super) fn coarser(&self, factor: f64) -> Apart {
+        Apart { cusp: factor * self.cusp, shares: self.shares.clone(), ..*self }
+    }
+
+    /// Passes over a width, mm, each with its place and length; `make` lays the pass at a place.
     pub(super) fn march(
         &self,
         width: f64,
         make: &dyn Fn(f64) -> Option<Track>,
-    ) -> Result<Vec<(f64, Track)>, String> {
+    ) -> Result<Vec<(f64, Track, f64)>, String> {
         const FIRST: usize = 1000;
         let first = (0..FIRST).map(|k| width * count(k) / count(FIRST)).find_map(|at| Some((at, make(at)?)));
         let Some((at, track)) = first else { return Ok(Vec::new()) };
@@ -86,26 +121,28 @@ impl Apart {
         let mut step = 2.0 * (2.0 * self.hull.radius() * self.cusp).sqrt();
         let (mut passes, mut spent) = (Vec::new(), 0);
         while let Some((lane, next)) = self.next(&last, (width, step), make, &mut spent)? {
-            passes.push((last.at, last.track));
+            let length = last.length();
+            passes.push((last.at, last.track, length));
             (last, step) = (lane, next);
         }
-        passes.push((last.at, last.track));
+        let length = last.length();
+        passes.push((last.at, last.track, length));
         Ok(passes)
     }
 
     /// The widest that passes are put apart, mm: beyond that their flats could leave a strip that neither covers.
-    fn widest(&self) -> f64 {
+    pub(super) fn widest(&self) -> f64 {
         1.6 * self.hull.flat() + 2.0 * (2.0 * self.hull.corner() * self.cusp).sqrt()
     }
 
     /// The pass after one, and the step it took; `None` after the last.
     fn next(
         &self,
-        last: &Lane,
+        last: &Lane<Track>,
         (width, step): (f64, f64),
         make: &dyn Fn(f64) -> Option<Track>,
         spent: &mut usize,
-    ) -> Result<Option<(Lane, f64)>, String> {
+    ) -> Result<Option<(Lane<Track>, f64)>, String> {
         let rest = (width - last.at).min(self.widest());
         if width - last.at <= CLOSEST {
             return Ok(None);
@@ -155,7 +192,7 @@ impl Apart {
     }
 
     /// Where a pass is, in words.
-    fn place(&self, lane: &Lane) -> String {
+    pub(super) fn place<C>(&self, lane: &Lane<C>) -> String {
         let middle = lane.contact(0.5);
         middle.map_or_else(String::new, |c| {
             format!(
@@ -166,7 +203,7 @@ impl Apart {
     }
 
     /// A pass with its stations; `beside`: a pass near by.
-    fn lane(&self, at: f64, track: Track, beside: Option<&Lane>) -> Lane {
+    pub(super) fn lane<C: Course>(&self, at: f64, track: C, beside: Option<&Lane<C>>) -> Lane<C> {
         let mut stations = self.stations(&track, beside);
         let (mut way, mut more): (Vec<Point>, Vec<Station>) = Default::default();
         let last = stations.len() - 1;
@@ -176,7 +213,7 @@ impl Apart {
                 let (from, to) = (stations[i], stations[i + 1]);
                 way.push(from.point());
                 if *smooth {
-                    self.follow(&stations, i, &mut way);
+                    self.follow(&stations, i, track.bends(), &mut way);
                 } else {
                     let first = more.len();
                     self.between(&track, (from, to), 1, &mut more);
@@ -190,10 +227,8 @@ impl Apart {
     }
 
     /// An odd number of stations at equal distances.
-    fn stations(&self, track: &Track, beside: Option<&Lane>) -> Vec<Station> {
-        let ends = [0.0, 1.0].map(|t| track.at(t, None).map(|c| c.centre));
-        let length = if let [Some(a), Some(b)] = ends { (b - a).norm() } else { 0.0 };
-        let parts = crate::math::ceil_to_usize(0.5 * length / (STATIONS.2 * self.hull.radius()));
+    fn stations<C: Course>(&self, track: &C, beside: Option<&Lane<C>>) -> Vec<Station> {
+        let parts = crate::math::ceil_to_usize(0.5 * track.length() / (STATIONS.2 * self.hull.radius()));
         let parts = 2 * parts.clamp(STATIONS.0 / 2, STATIONS.1 / 2);
         let chunks: Vec<usize> = (0..=parts).step_by(CHUNK).collect();
         let chunk = |first: &usize| {
@@ -224,12 +259,15 @@ impl Apart {
     }
 
     /// Points between a station and the next on the cubic through these and their neighbours.
-    fn follow(&self, stations: &[Station], i: usize, way: &mut Vec<Point>) {
+    fn follow(&self, stations: &[Station], i: usize, beside: bool, way: &mut Vec<Point>) {
         let centre = |k: Option<usize>| stations.get(k?)?.contact.map(|c| c.centre.coords);
         let (Some(a), Some(b)) = (centre(Some(i)), centre(Some(i + 1))) else { return };
         let before = centre(i.checked_sub(1)).unwrap_or(a * 2.0 - b);
         let after = centre(Some(i + 2)).unwrap_or(b * 2.0 - a);
-        let bend = (before - a * 2.0 + b).z.abs().max((a - b * 2.0 + after).z.abs());
+        let (first, second) = (before - a * 2.0 + b, a - b * 2.0 + after);
+        let bend = first.z.abs().max(second.z.abs());
+        // Beside the pass a chord may leave it by more, as it does not where passes are straight.
+        let bend = bend.max(if beside { BESIDE * first.xy().norm().max(second.xy().norm()) } else { 0.0 });
         let parts = (bend / (8.0 * STRAIGHT * self.cusp)).sqrt().ceil().clamp(1.0, CHORDS);
         let mut k = 1.0;
         while k < parts {
@@ -248,7 +286,13 @@ impl Apart {
     }
 
     /// Stations between two, where the pass is not straight enough.
-    fn between(&self, track: &Track, (from, to): (Station, Station), depth: u32, found: &mut Vec<Station>) {
+    fn between<C: Course>(
+        &self,
+        track: &C,
+        (from, to): (Station, Station),
+        depth: u32,
+        found: &mut Vec<Station>,
+    ) {
         let middle = station(track, 0.5 * (from.share + to.share), from.contact.as_ref());
         if let [Some(a), Some(b), Some(c)] = [from, middle, to].map(|s| s.contact) {
             let above = b.centre.z - 0.5 * (a.centre.z + c.centre.z);
@@ -264,10 +308,15 @@ impl Apart {
         self.between(track, (middle, to), depth + 1, found);
     }
 
-    /// The highest ridge between two passes.
-    fn ridge(&self, a: &Lane, b: &Lane, make: &dyn Fn(f64) -> Option<Track>, spent: &mut usize) -> f64 {
-        let wanted = crate::math::ceil_to_usize((b.at - a.at) / (BETWEEN.1 * self.hull.radius()));
-        let places = wanted.max(BETWEEN.0) | 1;
+    /// The highest ridge between two passes, or one that is too high.
+    fn ridge(
+        &self,
+        a: &Lane<Track>,
+        b: &Lane<Track>,
+        make: &dyn Fn(f64) -> Option<Track>,
+        spent: &mut usize,
+    ) -> f64 {
+        let places = self.places(b.at - a.at);
         let middle = places.div_ceil(2);
         let mut highest = 0.0f64;
         // The highest are near the middle: those come first.
@@ -275,21 +324,8 @@ impl Apart {
             let place = if k % 2 == 0 { middle + k / 2 } else { middle - k.div_ceil(2) };
             let at = a.at + (b.at - a.at) * count(place) / count(places + 1);
             let Some(track) = make(at) else { continue };
-            let stations = self.stations(&track, Some(a));
-            *spent += stations.len();
-            let left = |station: &Station| {
-                let touched = station.contact.map(|c| (c, self.normal(&track, &c)));
-                touched.as_ref().map_or(0.0, |t| self.adds((a, b), t, station.share))
-            };
-            let here: Vec<f64> = stations.par_iter().map(left).collect();
-            highest = here.iter().copied().fold(highest, f64::max);
-            // About the highest ones the ridge is looked at closer.
-            for k in crests(&here, PEAK * highest) {
-                let (from, own, to) = (&stations[k - 1], &stations[k], &stations[k + 1]);
-                for share in [0.5 * (from.share + own.share), 0.5 * (own.share + to.share)] {
-                    highest = highest.max(left(&station(&track, share, own.contact.as_ref())));
-                }
-            }
+            let here = self.left_along(&track, [Some(a), Some(b)], highest, spent);
+            highest = here.iter().map(|h| h.1).fold(highest, f64::max);
             if highest > AIM * self.cusp {
                 break;
             }
@@ -297,16 +333,49 @@ impl Apart {
         highest
     }
 
-    /// What two passes leave on a point that the cutter touches between them, above what it leaves there itself: at an edge
+    /// At how many places between passes that lie so far apart the cutter is let down: an odd number.
+    pub(super) fn places(&self, apart: f64) -> usize {
+        let wanted = crate::math::ceil_to_usize(apart / (BETWEEN.1 * self.hull.radius()));
+        wanted.max(BETWEEN.0) | 1
+    }
+
+    /// What passes on either side leave along a way between them, by its share; `highest`: the highest ridge known.
+    pub(super) fn left_along<C: Course>(
+        &self,
+        track: &C,
+        passes: [Option<&Lane<C>>; 2],
+        highest: f64,
+        spent: &mut usize,
+    ) -> Vec<(f64, f64)> {
+        let stations = self.stations(track, passes[0].or(passes[1]));
+        *spent += stations.len();
+        let left = |station: &Station| {
+            let touched = station.contact.map(|c| (c, self.normal(track.tree(), &c)));
+            touched.as_ref().map_or(0.0, |t| self.adds(passes, t, station.share))
+        };
+        let here: Vec<f64> = stations.par_iter().map(left).collect();
+        let highest = here.iter().copied().fold(highest, f64::max);
+        let mut out: Vec<(f64, f64)> = stations.iter().map(|s| s.share).zip(here.iter().copied()).collect();
+        // About the highest ones the ridge is looked at closer.
+        for k in crests(&here, PEAK * highest) {
+            let (from, own, to) = (&stations[k - 1], &stations[k], &stations[k + 1]);
+            for share in [0.5 * (from.share + own.share), 0.5 * (own.share + to.share)] {
+                out.push((share, left(&station(track, share, own.contact.as_ref()))));
+            }
+        }
+        out
+    }
+
+    /// What passes leave on a point that the cutter touches between them, above what it leaves there itself: at an edge
     /// it may lean on that with its side.
-    fn adds(&self, (a, b): (&Lane, &Lane), touched: &(Contact, Vec3), share: f64) -> f64 {
+    fn adds<C: Course>(&self, passes: [Option<&Lane<C>>; 2], touched: &(Contact, Vec3), share: f64) -> f64 {
         let (centre, ray) = (touched.0.centre, (touched.0.foot.point, touched.1));
         let own = self.leaves((centre, centre), ray);
         if !own.is_finite() {
             return 0.0;
         }
-        let left = self.left(a, touched, share).min(self.left(b, touched, share));
-        (left - own) / self.shares.share(touched.0.foot.point)
+        let left = passes.into_iter().flatten().map(|lane| self.left(lane, touched, share));
+        (left.fold(f64::INFINITY, f64::min) - own) / self.shares.share(touched.0.foot.point)
     }
 
     /// What the cutter on its way leaves on a point.
@@ -315,15 +384,17 @@ impl Apart {
     }
 
     /// The surface's normal where the cutter touches it, be it at an edge.
-    fn normal(&self, track: &Track, contact: &Contact) -> Vec3 {
+    fn normal(&self, tree: &SurfaceTree, contact: &Contact) -> Vec3 {
         let foot = &contact.foot;
-        let patch = track.tree.net().patches().get(foot.patch);
+        let patch = tree.net().patches().get(foot.patch);
         patch.and_then(|p| p.jet(foot.uv[0], foot.uv[1]).normal()).unwrap_or(contact.normal)
     }
 
     /// What a pass leaves on a point that the cutter touches beside it, about a share of its length.
-    fn left(&self, lane: &Lane, (touched, normal): &(Contact, Vec3), share: f64) -> f64 {
+    fn left<C: Course>(&self, lane: &Lane<C>, (touched, normal): &(Contact, Vec3), share: f64) -> f64 {
         const AROUND: usize = 2;
+        const PATIENCE: usize = 4;
+        let bends = lane.track.bends();
         let last = lane.way.len() - 1;
         let apart = |k: usize| {
             let at = lane.way[k].1.map(|c| (c - touched.centre).xy().norm_squared());
@@ -343,11 +414,34 @@ impl Apart {
             self.leaves((from, to), ray)
         };
         let parts = nearest.saturating_sub(AROUND)..(nearest + AROUND).min(last);
-        parts.map(part).fold(f64::INFINITY, f64::min)
+        let mut least = parts.clone().map(part).fold(f64::INFINITY, f64::min);
+        // A pass that bends takes most of it farther on.
+        let mut onwards = |beyond: &mut dyn Iterator<Item = usize>| {
+            let mut idle = 0;
+            for k in beyond {
+                let own = part(k);
+                idle = if own < least { 0 } else { idle + 1 };
+                least = least.min(own);
+                if idle >= PATIENCE {
+                    break;
+                }
+            }
+        };
+        if bends {
+            onwards(&mut (0..parts.start).rev());
+            onwards(&mut (parts.end..last));
+        }
+        least
     }
 }
 
-impl Lane {
+impl<C> Lane<C> {
+    /// Length of the pass, mm.
+    pub(super) fn length(&self) -> f64 {
+        let chord = |w: &[Point]| w[0].1.zip(w[1].1).map_or(0.0, |(a, b)| (b - a).norm());
+        self.way.windows(2).map(chord).sum()
+    }
+
     /// A contact about a share of the pass.
     fn contact(&self, share: f64) -> Option<Contact> {
         let near = self.stations.iter().min_by(|a, b| {
@@ -370,6 +464,6 @@ fn crests(heights: &[f64], least: f64) -> Vec<usize> {
     heights.windows(3).enumerate().filter(|(_, w)| is_crest(w)).map(|(k, _)| k + 1).collect()
 }
 
-fn station(track: &Track, share: f64, hint: Option<&Contact>) -> Station {
+fn station<C: Course>(track: &C, share: f64, hint: Option<&Contact>) -> Station {
     Station { share, contact: track.at(share, hint) }
 }

@@ -307,7 +307,8 @@ impl Family {
             let both = [self.along_axis(0), self.along_axis(1)];
             let (family, spread) = march::shortest(both, target, surface.along == Along::Const)?;
             let rooms = spread.rooms(target);
-            let runs: Vec<Vec<(usize, usize)>> = spread.lines.iter().map(runs).collect();
+            let runs: Vec<Vec<(usize, usize)>> =
+                spread.lines.iter().map(|line| runs(line, |at| !at.is_nan())).collect();
             let leg = |&(line, k): &(usize, usize)| {
                 let (from, to) = runs[line][k];
                 (family.bent(&spread.lines[line], (from, to)), rooms[line][from..=to].to_vec())
@@ -381,10 +382,10 @@ impl Family {
     }
 }
 
-/// The runs of columns at which a line has places, each of two columns at least: first and last.
-fn runs(across: &Line) -> Vec<(usize, usize)> {
+/// The runs of columns at which a pass has places, each of two columns at least: first and last.
+pub(super) fn runs<T>(columns: &[T], has: impl Fn(&T) -> bool) -> Vec<(usize, usize)> {
     let mut out: Vec<(usize, usize)> = Vec::new();
-    for k in (0..across.len()).filter(|k| !across[*k].is_nan()) {
+    for k in (0..columns.len()).filter(|k| has(&columns[*k])) {
         match out.last_mut().filter(|run| run.1 + 1 == k) {
             Some(run) => run.1 = k,
             None => out.push((k, k)),

@@ -6,9 +6,13 @@
 
 use std::sync::Arc;
 
+use rayon::prelude::*;
+
 use super::apart::Apart;
-use super::family::{LINK, Leg};
+use super::bends::{self, Making, Passes};
+use super::family::{LINK, Leg, runs};
 use super::outline::{self, crossings};
+use super::scale::Scale;
 use crate::geom::surface::{Cutter, Guide, Rim, SurfaceTree, Track};
 use crate::geom::{Point2, Point3, Vec2};
 use crate::ir::{Along, Band, Spacing, Surface};
@@ -17,9 +21,6 @@ use crate::plan::closer::Shares;
 
 /// Places on an edge of the outline.
 const EDGE: u32 = 200;
-/// Places across and along at which the plan's width is measured.
-const ACROSS: usize = 256;
-const ALONG: u32 = 24;
 /// More passes than this are a mistake in the step.
 const MOST: f64 = 50_000.0;
 /// Passes begin so far inside the outline, as a share of its width: at its border it has no length.
@@ -27,6 +28,8 @@ const INSET: f64 = 1e-3;
 /// Vertices may be to the side of their line by this share of the step, and of the distance to the next pass where the
 /// height of cusps is asked for.
 const ASIDE: (f64, f64) = (0.05, 0.02);
+/// The same for passes that bend.
+const BENT: f64 = 0.04;
 /// Where a pass ends because the cutter touches nothing more, it ends so much earlier, mm: on the control's grid it touches
 /// still.
 const SHORT: f64 = 0.005;
@@ -40,8 +43,14 @@ struct Lanes {
     rim: Rim,
 }
 
-/// A pass and the room beside it, mm.
-type Lane = (Track, f64);
+/// A pass.
+struct Lane {
+    track: Track,
+    /// As [`crate::cl::Pass::room`].
+    room: Vec<f64>,
+    /// About how long it is, mm, where that was found out.
+    length: f64,
+}
 
 /// The cutter with a hull to the middle of its band, and the band about that: the exact track then has a round corner
 /// and a normal everywhere.
@@ -60,46 +69,36 @@ pub(super) fn legs(
     shares: &Shares,
 ) -> Result<Vec<Leg>, String> {
     let lanes = Lanes { tree: Arc::clone(tree), cutter: hull, rim: Rim::new(tree.net(), &hull) };
-    let apart = match surface.spacing {
+    let apart = |cusp: f64| Apart {
+        hull,
+        bare: *bare,
+        by: hull.corner() - bare.corner(),
+        cusp,
+        shares: shares.clone(),
+    };
+    let steps = || match surface.spacing {
         Spacing::Step(step) => Steps::Even(step),
-        Spacing::Cusp(cusp) => Steps::Apart(Apart {
-            hull,
-            bare: *bare,
-            by: hull.corner() - bare.corner(),
-            cusp,
-            shares: shares.clone(),
-        }),
+        Spacing::Cusp(cusp) => Steps::Apart(apart(cusp)),
     };
-    let mut tracks = match surface.along {
-        Along::X => lanes.lines(0, &apart)?,
-        Along::Y => lanes.lines(1, &apart)?,
-        Along::V => lanes.parameters(1, &apart)?,
-        Along::U | Along::IsoCusp | Along::Const => lanes.parameters(0, &apart)?,
+    let chains = match surface.along {
+        Along::IsoCusp | Along::Const => {
+            let (cusp, step) = match surface.spacing {
+                Spacing::Step(step) => (step, Some(step)),
+                Spacing::Cusp(cusp) => (cusp, None),
+            };
+            lanes.bent(&apart(cusp), step, surface.along == Along::Const)?
+        }
+        straight => vec![lanes.straight(straight, &steps())?],
     };
-    if tracks.is_empty() {
-        return Err("no pass meets the surface".into());
+    let mut legs: Vec<Leg> = Vec::new();
+    for chain in chains {
+        lanes.chain(chain, surface.zigzag, &mut legs);
     }
-    if surface.zigzag {
-        for (track, _) in tracks.iter_mut().skip(1).step_by(2) {
-            *track = track.reversed();
-        }
-    }
-    let mut legs: Vec<Leg> = Vec::with_capacity(2 * tracks.len());
-    for (track, room) in tracks {
-        let before = legs.last_mut().filter(|_| surface.zigzag);
-        let link = before.and_then(|before| lanes.link(&before.track, &track));
-        if let Some(before) = legs.last_mut() {
-            before.last = link.is_none();
-        }
-        legs.extend(link.map(|track| Leg { track, room: Vec::new(), link: true, last: false }));
-        let room = if matches!(track.guide, Guide::Line { .. }) { Vec::new() } else { vec![room; ROOMS] };
-        legs.push(Leg { track, room, link: false, last: false });
-    }
-    if let Some(end) = legs.last_mut() {
-        end.last = true;
-    }
-    Ok(legs)
+    if legs.is_empty() { Err("no pass meets the surface".into()) } else { Ok(legs) }
 }
+
+/// Chains of passes, and their length in all, mm.
+type Chains = (f64, Vec<Vec<Lane>>);
 
 /// How far passes lie apart.
 enum Steps {
@@ -120,30 +119,161 @@ impl Steps {
                 }
                 // At most MOST, and floats saturate.
                 let passes = wanted as usize;
-                let lane = |k: usize| Some((make(width * count(k) / count(passes))?, ASIDE.0 * step));
+                let lane =
+                    |k: usize| Some(lane(make(width * count(k) / count(passes))?, ASIDE.0 * step, 0.0));
                 Ok((0..=passes).filter_map(lane).collect())
             }
             Steps::Apart(apart) => {
                 let passes = apart.march(width, make)?;
-                let places: Vec<f64> = passes.iter().map(|(at, _)| *at).collect();
+                let places: Vec<f64> = passes.iter().map(|(at, ..)| *at).collect();
                 let least = |k: usize| {
                     let near = places.get(k.saturating_sub(1)..(k + 2).min(places.len())).unwrap_or_default();
                     near.windows(2).map(|w| w[1] - w[0]).fold(f64::INFINITY, f64::min).min(width)
                 };
-                let lane = |(k, (_, track)): (usize, (f64, Track))| (track, ASIDE.1 * least(k));
+                let lane = |(k, (_, track, length)): (usize, (f64, Track, f64))| {
+                    lane(track, ASIDE.1 * least(k), length)
+                };
                 Ok(passes.into_iter().enumerate().map(lane).collect())
             }
         }
     }
 }
 
+/// Finds something of passes over a width, mm, given what lays one at a place.
+type Finder<'a, T> = dyn Fn(f64, &dyn Fn(f64) -> Option<Track>) -> Result<T, String> + 'a;
+
+/// A pass with the same room everywhere; straight ones stay in their plane.
+fn lane(track: Track, room: f64, length: f64) -> Lane {
+    let room = if matches!(track.guide, Guide::Line { .. }) { Vec::new() } else { vec![room; ROOMS] };
+    Lane { track, room, length }
+}
+
 impl Lanes {
+    /// The passes of one chain, and the ways between them.
+    fn chain(&self, chain: Vec<Lane>, zigzag: bool, legs: &mut Vec<Leg>) {
+        for (k, Lane { mut track, mut room, .. }) in chain.into_iter().enumerate() {
+            if zigzag && k % 2 == 1 {
+                track = track.reversed();
+                room.reverse();
+            }
+            let before = legs.last_mut().filter(|_| zigzag && k > 0);
+            let link = before.and_then(|before| self.link(&before.track, &track));
+            if let Some(before) = legs.last_mut() {
+                before.last = link.is_none();
+            }
+            legs.extend(link.map(|track| Leg { track, room: Vec::new(), link: true, last: false }));
+            legs.push(Leg { track, room, link: false, last: false });
+        }
+        if let Some(end) = legs.last_mut() {
+            end.last = true;
+        }
+    }
+
+    /// Passes along parameters, or in planes.
+    fn straight(&self, along: Along, steps: &Steps) -> Result<Vec<Lane>, String> {
+        match along {
+            Along::X => self.lines(0, steps),
+            Along::Y => self.lines(1, steps),
+            Along::V => self.parameters(1, steps),
+            _ => self.parameters(0, steps),
+        }
+    }
+
+    /// The shortest way of passes that bend, in chains of such that lie side by side; passes as far apart as ridges allow may
+    /// be straight, too. Which come into question is tried out with higher ridges.
+    fn bent(&self, apart: &Apart, step: Option<f64>, even: bool) -> Result<Vec<Vec<Lane>>, String> {
+        const STRAIGHT: [Along; 4] = [Along::U, Along::V, Along::X, Along::Y];
+        /// Straight ways are looked at that are no longer than so many times the bent one.
+        const NEARLY: f64 = 1.02;
+        let coarse = apart.coarser(bends::TRIAL);
+        let making = Making { tree: &self.tree, cutter: self.cutter, rim: self.rim, apart, step, even };
+        let straight = if even || step.is_some() { 0 } else { STRAIGHT.len() };
+        let tried: Vec<Result<f64, String>> = (0..2 + straight)
+            .into_par_iter()
+            .map(|way| match way.checked_sub(2) {
+                None => making.tried(way, &coarse),
+                Some(k) => self.length(STRAIGHT[k], &coarse),
+            })
+            .collect();
+        let of = |way: usize| tried[way].as_ref().map_or(f64::INFINITY, |length| *length);
+        let bent = if of(1) < of(0) * (1.0 - 1e-6) { 1 } else { 0 };
+        let least = (2..tried.len()).map(of).fold(of(bent), f64::min);
+        let most = NEARLY * if of(bent).is_finite() { of(bent) } else { least };
+        let ways: Vec<usize> = (0..tried.len()).filter(|w| *w == bent || *w > 1 && of(*w) <= most).collect();
+        let found: Vec<Result<Chains, String>> = ways
+            .par_iter()
+            .map(|way| match way.checked_sub(2) {
+                None => making.passes(*way).map(|passes| (passes.length, self.curves(&passes, step))),
+                Some(k) => {
+                    let lanes = self.straight(STRAIGHT[k], &Steps::Apart(apart.coarser(1.0)))?;
+                    Ok((lanes.iter().map(|lane| lane.length).sum(), vec![lanes]))
+                }
+            })
+            .collect();
+        let mut best: Result<Chains, String> = Err("no pass meets the surface".into());
+        for (k, way) in found.into_iter().enumerate() {
+            // Of ways of the same length the first.
+            match (&best, &way) {
+                (Ok(b), Ok(w)) if w.0 < b.0 * (1.0 - 1e-6) => best = way,
+                (Err(_), Ok(_)) => best = way,
+                (Err(_), Err(_)) if k == 0 => best = way,
+                _ => {}
+            }
+        }
+        if best.is_err()
+            && let Some(k) = (0..straight).min_by(|a, b| of(2 + a).total_cmp(&of(2 + b)))
+            && let Ok(lanes) = self.straight(STRAIGHT[k], &Steps::Apart(apart.coarser(1.0)))
+        {
+            return Ok(vec![lanes]);
+        }
+        best.map(|b| b.1)
+    }
+
+    /// How long straight passes are in all, mm.
+    fn length(&self, along: Along, apart: &Apart) -> Result<f64, String> {
+        let length = |(width, make): (f64, &dyn Fn(f64) -> Option<Track>)| -> Result<f64, String> {
+            Ok(apart.march(width, make)?.iter().map(|pass| pass.2).sum())
+        };
+        match along {
+            Along::X => self.over_lines(0, &|width, make| length((width, make))),
+            Along::Y => self.over_lines(1, &|width, make| length((width, make))),
+            Along::V => self.over_parameters(1, &|width, make| length((width, make))),
+            _ => self.over_parameters(0, &|width, make| length((width, make))),
+        }
+    }
+
+    /// Bent passes as they are cut.
+    fn curves(&self, passes: &Passes, step: Option<f64>) -> Vec<Vec<Lane>> {
+        let share = if step.is_some() { ASIDE.0 } else { BENT };
+        let runs: Vec<Vec<(usize, usize)>> =
+            passes.places.iter().map(|places| runs(places, Option::is_some)).collect();
+        let lane = |&(line, k): &(usize, usize)| -> Option<Lane> {
+            let (from, to) = runs[line][k];
+            let places: Vec<Point2> = passes.places[line][from..=to].iter().copied().flatten().collect();
+            let room = passes.room[line][from..=to].iter().map(|apart| share * apart).collect();
+            Some(Lane { track: self.track(Guide::Plan(Arc::new(places))), room, length: 0.0 })
+        };
+        // Runs that lie side by side have a column in common.
+        let ranges: Vec<Vec<(f64, f64)>> = runs
+            .iter()
+            .map(|line| line.iter().map(|(from, to)| (count(*from), count(to + 1))).collect())
+            .collect();
+        let chains = outline::chained(&ranges);
+        chains.iter().map(|chain| chain.iter().filter_map(lane).collect()).collect()
+    }
+
     fn track(&self, guide: Guide) -> Track {
         Track { tree: Arc::clone(&self.tree), radius: self.cutter.corner(), cutter: self.cutter, guide }
     }
 
     /// Straight lines along x (0) or y (1).
     fn lines(&self, axis: usize, steps: &Steps) -> Result<Vec<Lane>, String> {
+        let lanes = self.over_lines(axis, &|width, make| steps.over(width, make))?;
+        Ok(lanes.into_iter().flat_map(|lane| self.stretches(lane)).collect())
+    }
+
+    /// What is found for a width and the lines over it.
+    fn over_lines<T>(&self, axis: usize, find: &Finder<'_, T>) -> Result<T, String> {
         let outline = self.rim.outline(self.tree.net(), EDGE);
         let across = outline.iter().map(|p| p[1 - axis]);
         let (low, high) = across.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
@@ -156,7 +286,7 @@ impl Lanes {
                 |along: f64| if axis == 0 { Point2::new(along, across) } else { Point2::new(across, along) };
             self.held(place(a), place(b))
         };
-        Ok(steps.over(high - low, &line)?.into_iter().flat_map(|lane| self.stretches(lane)).collect())
+        find(high - low, &line)
     }
 
     /// A line, cut back to where the cutter touches at both ends; between them it may lose the surface.
@@ -167,10 +297,15 @@ impl Lanes {
     }
 
     /// The stretches of a line on which the cutter touches, looked at closely.
-    fn stretches(&self, (track, room): Lane) -> Vec<Lane> {
-        let Guide::Line { from, to } = track.guide else { return vec![(track, room)] };
+    fn stretches(&self, lane: Lane) -> Vec<Lane> {
+        let Guide::Line { from, to } = lane.track.guide else { return vec![lane] };
         let all = self.touching(from, to, self.close(from, to));
-        all.into_iter().filter_map(|range| Some((self.part((from, to), range)?, room))).collect()
+        let length = lane.length / count(all.len().max(1));
+        let part = |range| {
+            let track = self.part((from, to), range)?;
+            Some(Lane { track, room: lane.room.clone(), length })
+        };
+        all.into_iter().filter_map(part).collect()
     }
 
     /// Steps in which it is looked at closely whether the cutter touches.
@@ -203,27 +338,18 @@ impl Lanes {
 
     /// Lines over parameter lines along u (0) or v (1), and over the rim.
     fn parameters(&self, axis: usize, steps: &Steps) -> Result<Vec<Lane>, String> {
+        self.over_parameters(axis, &|width, make| steps.over(width, make))
+    }
+
+    /// What is found for a width and the lines over it.
+    fn over_parameters<T>(&self, axis: usize, find: &Finder<'_, T>) -> Result<T, String> {
         let net = self.tree.net();
-        let (range, (first, last)) = (self.rim.range(net, axis), self.rim.range(net, 1 - axis));
-        let across = |k: usize| first + (last - first) * count(k) / count(ACROSS);
-        let place = |k: usize, i: u32| {
-            let along = range.0 + (range.1 - range.0) * f64::from(i) / f64::from(ALONG);
-            self.rim.place(net, if axis == 0 { [along, across(k)] } else { [across(k), along] })
-        };
-        let widest =
-            |k: usize| (0..=ALONG).map(|i| (place(k + 1, i) - place(k, i)).norm()).fold(0.0, f64::max);
-        let mut sums = vec![0.0];
-        for k in 0..ACROSS {
-            sums.push(sums[k] + widest(k));
-        }
+        let (range, across) = (self.rim.range(net, axis), Scale::new(net, &self.rim, 1 - axis));
         let track = |wanted: f64| {
-            let k = sums.partition_point(|s| *s < wanted).clamp(1, ACROSS);
-            let width = sums[k] - sums[k - 1];
-            let share = if width > 0.0 { ((wanted - sums[k - 1]) / width).clamp(0.0, 1.0) } else { 0.0 };
-            let value = across(k - 1) + (across(k) - across(k - 1)) * share;
+            let value = across.value(wanted);
             Some(self.track(Guide::Over { axis, value, range, rim: self.rim }))
         };
-        steps.over(sums[ACROSS], &track)
+        find(across.width(), &track)
     }
 
     /// The way from the end of one pass to the start of the next, along the surface.
@@ -240,6 +366,12 @@ impl Lanes {
             ) if end == start => {
                 let guide = Guide::Over { axis: 1 - axis, value: *end, range: (*value, *next), rim: *rim };
                 Some(self.track(guide))
+            }
+            (Guide::Plan(before), Guide::Plan(after)) => {
+                let (end, start) = (*before.last()?, *after.first()?);
+                let near = (start - end).norm() <= LINK * self.cutter.radius();
+                let follows = || self.touching(end, start, self.close(end, start)) == [(0.0, 1.0)];
+                (near && follows()).then(|| self.track(Guide::Line { from: end, to: start }))
             }
             _ => None,
         }

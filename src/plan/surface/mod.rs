@@ -4,6 +4,7 @@
 //! bend, [`entry`] how the cutter comes onto the surface. Passes stay exact tracks: `lower` fits them.
 
 mod apart;
+mod bends;
 mod entry;
 mod extent;
 mod family;
@@ -12,6 +13,7 @@ mod march;
 mod material;
 mod outline;
 mod ridge;
+mod scale;
 mod spread;
 
 use std::sync::Arc;
