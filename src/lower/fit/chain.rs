@@ -3,7 +3,7 @@
 use super::certify::Certificate;
 use super::ends::Ends;
 use super::measure::Range;
-use super::search::{Effort, Goal, Search, Stuck, Vertex, seed};
+use super::search::{Effort, Goal, Search, Stuck, Vertex, WIDE, seed};
 use super::tube::{Gates, Guard, Plane, ROUNDING, Stations};
 use super::window::Course;
 use super::{Fit, FitError, Primitive, Tube, bound};
@@ -79,11 +79,11 @@ pub fn counted(tube: &Tube, plane: Plane, start: Option<f64>) -> Result<(Fit, us
 /// How hard to try, by the number of links.
 fn effort(links: f64) -> (Effort, u32) {
     match links {
-        n if n < 12.0 => (Effort { beam: 8, tries: 8, all: false }, 8),
-        n if n < 300.0 => (Effort { beam: 4, tries: 5, all: false }, 3),
-        n if n < 3_000.0 => (Effort { beam: 3, tries: 4, all: false }, 3),
-        n if n < 30_000.0 => (Effort { beam: 2, tries: 3, all: false }, 1),
-        _ => (Effort { beam: 2, tries: 2, all: false }, 0),
+        n if n < 12.0 => (Effort { beam: 8, tries: 8, columns: WIDE, all: false }, 8),
+        n if n < 300.0 => (Effort { beam: 4, tries: 5, columns: WIDE, all: false }, 3),
+        n if n < 3_000.0 => (Effort { beam: 3, tries: 4, columns: WIDE, all: false }, 3),
+        n if n < 30_000.0 => (Effort { beam: 2, tries: 3, columns: WIDE, all: false }, 1),
+        _ => (Effort { beam: 2, tries: 2, columns: WIDE, all: false }, 0),
     }
 }
 
@@ -125,7 +125,8 @@ impl Solver<'_> {
         self.fewer(&mut best, from, effort, rounds);
         let few = best.links() <= FEW && best.links() > self.bound as usize;
         if few
-            && let Ok(chain) = self.attempt(1.0, from, Effort { beam: 32, tries: 16, all: true })
+            && let Ok(chain) =
+                self.attempt(1.0, from, Effort { beam: 32, tries: 16, columns: WIDE, all: true })
             && chain.links() < best.links()
         {
             best = chain;
@@ -137,8 +138,11 @@ impl Solver<'_> {
     /// A wide search where the narrow one died; then the question how wide the band should be.
     fn harder(&mut self, from: usize) -> Result<Chain, FitError> {
         let few = self.bound < MANY;
-        let wide =
-            if few { Effort { beam: 32, tries: 12, all: true } } else { effort(f64::from(MANY) / 2.0).0 };
+        let wide = if few {
+            Effort { beam: 32, tries: 12, columns: WIDE, all: true }
+        } else {
+            effort(f64::from(MANY) / 2.0).0
+        };
         let stuck = match self.attempt(1.0, from, wide) {
             Ok(chain) => return Ok(chain),
             Err(stuck) => stuck,
@@ -165,7 +169,7 @@ impl Solver<'_> {
                 search: Search::new(self.bound),
                 bound: self.bound,
             };
-            if wider.attempt(1.0, from, Effort { beam: 4, tries: 6, all: false }).is_ok() {
+            if wider.attempt(1.0, from, Effort { beam: 4, tries: 6, columns: WIDE, all: false }).is_ok() {
                 break;
             }
         }
@@ -193,7 +197,7 @@ impl Solver<'_> {
             }
             self.restart(best, from + link * round as usize / 4, effort);
         }
-        let wider = Effort { beam: 2 * effort.beam, tries: 2 * effort.tries, all: false };
+        let wider = Effort { beam: 2 * effort.beam, tries: 2 * effort.tries, all: false, ..effort };
         for round in 0..STARTS {
             if best.links() as u32 <= allowed(self.bound) || best.links() > FINE {
                 return;

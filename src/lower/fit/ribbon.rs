@@ -46,7 +46,7 @@ pub fn fewest(ribbon: &Ribbon, head: Point2, tail: Point2) -> Option<Vec<Knot>> 
     let whole = |p: Point2| [p.x, p.y].map(|c| (c / STEP).round() as i64);
     let (head, target) = (whole(head), tail.coords / STEP);
     let course = Course { gates: &gates, end: n - 1, target: Some(target) };
-    let effort = Effort { beam: 2, tries: 3, all: false };
+    let effort = Effort { beam: 2, tries: 3, columns: 8, all: false };
     let root = Vertex { at: head, next: 1 };
     // No path needs more links than there are gates.
     let most = u32::try_from(n).unwrap_or(u32::MAX);

@@ -15,12 +15,17 @@ pub struct Effort {
     pub beam: usize,
     /// Grid points tried for each of them.
     pub tries: usize,
+    /// Grid columns looked at in either direction once there are points enough: few will do on a grid that is much finer than
+    /// what is asked for.
+    pub columns: u32,
     /// Also those that cannot see as far as the best do: where the grid is coarse they may be the only way on.
     pub all: bool,
 }
 
-/// Grid columns looked at for one vertex when nothing has been found yet, and when something has.
-const COLUMNS: (u32, u32) = (20_000, 256);
+/// Grid columns looked at for one vertex when nothing has been found yet.
+const COLUMNS: u32 = 20_000;
+/// Grid columns looked at when something has been found, on the grid of a control.
+pub const WIDE: u32 = 256;
 /// Columns next to the first that are looked at one by one; farther out they are skipped in proportion to the distance.
 const DENSE: f64 = 128.0;
 /// Grid points of one vertex's view that are tried where nothing leads on: in corners few of them do.
@@ -189,10 +194,10 @@ impl Search {
         };
         self.aim.get_or_insert((view.exit, view.stop, aim));
         let scan = Scan::new(course, from, view, &aim);
-        scan.run(effort.tries, &mut self.found);
+        scan.run(effort, &mut self.found);
         if self.found.is_empty() || effort.all {
             let mut either = Vec::new();
-            Scan { either: true, ..scan }.run(effort.tries, &mut either);
+            Scan { either: true, ..scan }.run(effort, &mut either);
             self.found.extend(either);
         }
     }
@@ -299,22 +304,27 @@ impl<'a> Scan<'a> {
         Scan { course, from, view, outer, axis, sign: far[axis].signum(), wedge, aim: plane, either, start }
     }
 
-    fn run(&self, tries: usize, found: &mut Vec<(f64, [i64; 2])>) {
+    fn run(&self, effort: Effort, found: &mut Vec<(f64, [i64; 2])>) {
         let (back, front) = (self.from.point()[self.axis], self.view.tip[self.axis]);
         let first = self.start.clamp(back.min(front), back.max(front)).round();
-        self.pass(first, -self.sign, back, tries, found);
-        self.pass(first + self.sign, self.sign, front, tries, found);
+        self.pass((first, -self.sign, back), effort, found);
+        self.pass((first + self.sign, self.sign, front), effort, found);
     }
 
     /// Columns from `column` on in one direction up to `last`.
-    fn pass(&self, mut column: f64, step: f64, last: f64, tries: usize, found: &mut Vec<(f64, [i64; 2])>) {
+    fn pass(
+        &self,
+        (mut column, step, last): (f64, f64, f64),
+        Effort { tries, columns, .. }: Effort,
+        found: &mut Vec<(f64, [i64; 2])>,
+    ) {
         let mut edge = (self.view.stop - 1).min(self.course.end - 1);
         let mut looked = 0;
         let near = column;
         while (last - column) * step >= 0.0 {
             looked += 1;
             let full = found.len() >= tries;
-            if looked > if full { COLUMNS.1 } else { COLUMNS.0 } {
+            if looked > if full { columns } else { COLUMNS } {
                 return;
             }
             edge = self.edge(self.outer, edge, column);
