@@ -1,5 +1,7 @@
 //! One Bezier patch of any degree, polynomial or rational.
 
+use wide::f64x4;
+
 use crate::geom::{Point3, Vec3};
 
 /// Largest degree of a patch in either direction.
@@ -91,7 +93,7 @@ pub struct Patch {
     rational: bool,
     /// Coefficients of uⁱ vʲ, row by row, of a patch of a net: points of these are asked for by the million. None for parts
     /// of patches, and where the degree is so high that powers lose too many digits.
-    powers: Vec<Homogeneous>,
+    powers: Vec<f64x4>,
 }
 
 /// Degrees up to which powers are used: they lose three digits at most.
@@ -159,6 +161,10 @@ impl Patch {
     /// r and its derivatives to second order, eq. (8) ff.
     #[must_use]
     pub fn jet(&self, u: f64, v: f64) -> SurfaceJet {
+        if let (Ok(powers), 3, false) = (self.powers.as_slice().try_into(), self.degree[0], self.rational) {
+            let [p, u, v, uu, uv, vv] = bicubic(powers, u, v).map(vector);
+            return SurfaceJet { p: Point3::from(p), u, v, uu, uv, vv };
+        }
         let [h, hu, hv, huu, huv, hvv] = self.sums(u, v);
         if self.rational {
             return quotient(h, hu, hv, huu, huv, hvv);
@@ -183,10 +189,10 @@ impl Patch {
     fn sums(&self, u: f64, v: f64) -> [Homogeneous; 6] {
         let [m, n] = self.degree;
         if let (Ok(powers), 3) = (self.powers.as_slice().try_into(), m) {
-            return bicubic(powers, u, v);
+            return bicubic(powers, u, v).map(homogeneous);
         }
         if !self.powers.is_empty() {
-            return horner(&self.powers, n + 1, u, v);
+            return horner(&self.powers, n + 1, u, v).map(homogeneous);
         }
         let (b, c) = (bernstein_jet(m, u), bernstein_jet(n, v));
         let mut out = [Homogeneous::zeros(); 6];
@@ -276,12 +282,12 @@ fn bernstein(n: usize, t: f64) -> Basis {
 }
 
 /// A patch in powers of u and v.
-fn powers(poles: &[Homogeneous], columns: usize) -> Vec<Homogeneous> {
+fn powers(poles: &[Homogeneous], columns: usize) -> Vec<f64x4> {
     let mut out = poles.to_vec();
     let rows = poles.len() / columns;
     (0..rows).for_each(|i| line_in_powers(&mut out, i * columns, 1, columns - 1));
     (0..columns).for_each(|j| line_in_powers(&mut out, j, columns, rows - 1));
-    out
+    out.iter().map(|h| f64x4::from([h.x, h.y, h.z, h.w])).collect()
 }
 
 /// One line of poles (start, stride, degree): the k-th coefficient is the k-th difference, (n over k) times.
@@ -300,33 +306,49 @@ fn line_in_powers(poles: &mut [Homogeneous], start: usize, stride: usize, degree
 }
 
 /// The homogeneous point of a patch and its derivatives, by Horner's rule.
-fn horner(powers: &[Homogeneous], columns: usize, u: f64, v: f64) -> [Homogeneous; 6] {
-    let zero = Homogeneous::zeros;
-    let mut out = [zero(); 6];
+fn horner(powers: &[f64x4], columns: usize, u: f64, v: f64) -> [f64x4; 6] {
+    let (u, v) = (f64x4::splat(u), f64x4::splat(v));
+    let mut out = [f64x4::ZERO; 6];
     for row in powers.chunks_exact(columns).rev() {
-        let mut r = [zero(); 3];
+        let mut r = [f64x4::ZERO; 3];
         for a in row.iter().rev() {
-            r = [r[0] * v + a, r[1] * v + r[0], r[2] * v + r[1]];
+            r = [r[0] * v + *a, r[1] * v + r[0], r[2] * v + r[1]];
         }
         let [p, pu, pv, puu, puv, pvv] = out;
         out = [p * u + r[0], pu * u + p, pv * u + r[1], puu * u + pu, puv * u + pv, pvv * u + r[2]];
     }
     // Horner's scheme gives half of a second derivative.
     let [p, pu, pv, puu, puv, pvv] = out;
-    [p, pu, pv, puu * 2.0, puv, pvv * 2.0]
+    [p, pu, pv, puu + puu, puv, pvv + pvv]
 }
 
 /// The homogeneous point of a bicubic patch and its derivatives, by Horner's rule.
-fn bicubic(powers: &[Homogeneous; 16], u: f64, v: f64) -> [Homogeneous; 6] {
-    let row = |i: usize| {
-        let [a, b, c, d] = [powers[4 * i], powers[4 * i + 1], powers[4 * i + 2], powers[4 * i + 3]];
-        let dv = d * v;
-        [a + (b + (c + dv) * v) * v, b + (c * 2.0 + dv * 3.0) * v, c * 2.0 + dv * 6.0]
+fn bicubic(powers: &[f64x4; 16], u: f64, v: f64) -> [f64x4; 6] {
+    let (u, v, three) = (f64x4::splat(u), f64x4::splat(v), f64x4::splat(3.0));
+    // With the cubic's last term at the place: value, slope, half of the second derivative.
+    let line = |a: f64x4, b: f64x4, c: f64x4, d: f64x4, t: f64x4| {
+        let (high, thrice) = (d * t, d * t * three);
+        (a + (b + (c + high) * t) * t, b + (c + c + thrice) * t, c + thrice)
     };
+    let row = |i: usize| line(powers[4 * i], powers[4 * i + 1], powers[4 * i + 2], powers[4 * i + 3], v);
     let [a, b, c, d] = [row(0), row(1), row(2), row(3)];
-    let value = |k: usize| a[k] + (b[k] + (c[k] + d[k] * u) * u) * u;
-    let slope = |k: usize| b[k] + (c[k] * 2.0 + d[k] * (3.0 * u)) * u;
-    [value(0), slope(0), value(1), c[0] * 2.0 + d[0] * (6.0 * u), slope(1), value(2)]
+    let (p, pu, puu) = line(a.0, b.0, c.0, d.0, u);
+    let slope = |a: f64x4, b: f64x4, c: f64x4, d: f64x4| {
+        let high = d * u;
+        (a + (b + (c + high) * u) * u, b + (c + c + high * three) * u)
+    };
+    let (pv, puv) = slope(a.1, b.1, c.1, d.1);
+    let pvv = a.2 + (b.2 + (c.2 + d.2 * u) * u) * u;
+    [p, pu, pv, puu + puu, puv, pvv + pvv]
+}
+
+fn vector(x: f64x4) -> Vec3 {
+    let [x, y, z, _] = x.to_array();
+    Vec3::new(x, y, z)
+}
+
+fn homogeneous(x: f64x4) -> Homogeneous {
+    Homogeneous::from(x.to_array())
 }
 
 /// Adds what a row of poles gives: its sums with the basis in v and that basis's derivatives, times those in u.

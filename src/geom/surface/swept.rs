@@ -58,6 +58,10 @@ pub struct Question {
 const CLEAR: f64 = 2.0;
 /// Evaluations for one way before its bounds are reported in place of values.
 const BUDGET: u32 = 20_000;
+/// After so many of these more is asked about parts of the way …
+const LOOKS: u32 = 12;
+/// … that are so much shorter than what is known.
+const CLOSER: f64 = 8.0;
 
 #[derive(Debug, Clone, Copy)]
 struct Sample {
@@ -94,8 +98,19 @@ pub fn extremes(
     let first = look(0.0, hint);
     let last = look(length, Some(&first.foot));
     let farthest = 0.5 * (first.above + last.above + length);
-    let glide = tree.glide(from + way * 0.5, length, farthest);
-    let mut hunt = Hunt { from, along, question, glide, least: first, most: first, left: BUDGET };
+    let glide = tree.glide(from + way * 0.5, (along, length), farthest);
+    let part = Part { from: 0.0, to: length, glide };
+    let mut hunt = Hunt {
+        tree,
+        from,
+        along,
+        question,
+        whole: part,
+        parts: Vec::new(),
+        least: first,
+        most: first,
+        left: BUDGET,
+    };
     hunt.take(&last);
     let mut stack = vec![(first, last)];
     while let Some((a, b)) = stack.pop() {
@@ -110,11 +125,21 @@ pub fn extremes(
     Extremes { least, most, foot: last.foot }
 }
 
+/// What is known of a part of the way.
+struct Part {
+    from: f64,
+    to: f64,
+    glide: Option<Glide>,
+}
+
 struct Hunt<'a> {
+    tree: &'a SurfaceTree,
     from: Point3,
     along: Vec3,
     question: &'a Question,
-    glide: Option<Glide>,
+    whole: Part,
+    /// Parts within one another: what is near the whole way need not be near all of it.
+    parts: Vec<Part>,
     least: Sample,
     most: Sample,
     left: u32,
@@ -141,7 +166,7 @@ impl Hunt<'_> {
             return Some(0.5 * (a.s + b.s));
         }
         let farthest = 0.5 * (a.above + b.above + h);
-        let mild = self.glide.and_then(|g| g.bound((a.s, b.s), (nearest, farthest)));
+        let mild = self.mild(a, b, (nearest, farthest));
         let k = mild.map_or(1.0 / nearest, |k| k.min(1.0 / nearest));
         let (low, low_at) = below(a, b, k);
         let (high, high_at) = above(a, b, k);
@@ -157,6 +182,29 @@ impl Hunt<'_> {
         self.left -= 1;
         let wanted = if deeper { low_at } else { high_at };
         Some(wanted.clamp(a.s + 0.1 * h, b.s - 0.1 * h))
+    }
+
+    /// Bound of the second derivative between two samples, where the surface is mild.
+    ///
+    /// Where that is not known of all of the way, it may be of a part of it.
+    fn mild(&mut self, a: &Sample, b: &Sample, range: (f64, f64)) -> Option<f64> {
+        let h = b.s - a.s;
+        while self.parts.last().is_some_and(|p| a.s < p.from || b.s > p.to) {
+            self.parts.pop();
+        }
+        let bound =
+            |known: &Part| known.glide.and_then(|g| g.bound((a.s - known.from, b.s - known.from), range));
+        let known = self.parts.last().unwrap_or(&self.whole);
+        let found = bound(known);
+        if found.is_some() || self.left + LOOKS > BUDGET || h * CLOSER > known.to - known.from {
+            return found;
+        }
+        let middle = self.from + self.along * (0.5 * (a.s + b.s));
+        let glide = self.tree.glide(middle, (self.along, h), range.1);
+        let part = Part { from: a.s, to: b.s, glide };
+        let found = bound(&part);
+        self.parts.push(part);
+        found
     }
 
     /// The bounds stand in for values.

@@ -3,31 +3,26 @@
 //! With e the chord between neighbouring stations and n their normals, the chord of the layout makes the same angles
 //! with the layout's normals: sin α = e·n/|e|. Deviations along the normal are then those in space, to the third order
 //! in the length of a link.
+//!
+//! Few stations are exact ([`super::anchors`]): where the track is smooth cubics through these tell the others.
 
 use crate::geom::surface::{Contact, Track};
-use crate::geom::{Point2, Vec2};
-use crate::math;
+use crate::geom::{Point2, Vec2, Vec3};
 
 use super::super::fit::ribbon::Ribbon;
+use super::anchors::{self, Anchor, NEAREST, Spot};
 use super::vertex::Vertex;
 
-/// Stations are no farther apart than this part of the track.
-const PARTS: u32 = 24;
-/// … and no nearer than this, mm.
-const NEAREST: f64 = 2e-3;
 /// Normals of neighbouring stations that differ by more, rad, are those of a corner.
 const CORNER: f64 = 0.02;
-/// Stations of one track at most.
-const MOST: usize = 400_000;
 
 #[derive(Debug, Clone, Copy)]
 struct Station {
-    t: f64,
-    contact: Contact,
+    spot: Spot,
     /// Place in the plane, mm.
     at: Point2,
-    /// Direction of travel there.
-    heading: f64,
+    /// The normal there.
+    normal: Vec2,
     /// By how much chords to its neighbours cut a corner, mm: inside (the curve is hollow) and outside.
     slack: (f64, f64),
 }
@@ -37,40 +32,38 @@ struct Station {
 pub(super) struct Chart {
     stations: Vec<Station>,
     corners: Vec<usize>,
+    anchors: Vec<Anchor>,
 }
 
 impl Chart {
     /// Stations so dense that chords deviate by `sagitta` mm at most, but for corners; `None` where the track is lost.
-    pub(super) fn new(track: &Track, sagitta: f64, (first, last): (Contact, Contact)) -> Option<Chart> {
-        let mut found = vec![(0.0, first)];
-        for k in 1..=PARTS {
-            let t = f64::from(k) / f64::from(PARTS);
-            let (_, before) = *found.last()?;
-            let contact = if k == PARTS { last } else { track.at(t, Some(&before))? };
-            refine(track, (t, contact), sagitta, &mut found)?;
-        }
-        Some(Chart::lay_out(&found))
+    pub(super) fn new(track: &Track, sagitta: f64, ends: (Contact, Contact)) -> Option<Chart> {
+        let anchors = anchors::of(track, sagitta, ends)?;
+        let spots = anchors::spots(&anchors, sagitta);
+        Some(Chart::lay_out(&spots, anchors))
     }
 
-    fn lay_out(found: &[(f64, Contact)]) -> Chart {
-        let mut stations: Vec<Station> = Vec::with_capacity(found.len());
+    fn lay_out(spots: &[Spot], anchors: Vec<Anchor>) -> Chart {
+        let mut stations: Vec<Station> = Vec::with_capacity(spots.len());
         let mut corners = Vec::new();
-        let (mut at, mut heading) = (Point2::origin(), 0.0);
-        for (i, (t, contact)) in found.iter().enumerate() {
+        let (mut at, mut normal) = (Point2::origin(), Vec2::new(0.0, 1.0));
+        for (i, &spot) in spots.iter().enumerate() {
             let mut slack = (0.0, 0.0);
-            if let Some((_, before)) = i.checked_sub(1).and_then(|j| found.get(j)) {
-                let chord = contact.centre - before.centre;
+            if let Some(before) = i.checked_sub(1).and_then(|j| spots.get(j)) {
+                let chord = spot.centre - before.centre;
                 let length = chord.norm();
-                let rise = |c: &Contact| {
-                    if length > 0.0 { (chord.dot(&c.normal) / length).clamp(-1.0, 1.0) } else { 0.0 }
+                let rise = |n: &Vec3| {
+                    if length > 0.0 { (chord.dot(n) / length).clamp(-1.0, 1.0) } else { 0.0 }
                 };
-                let (a, b) = (rise(before), rise(contact));
-                let way = heading + math::asin(a);
-                at += Vec2::new(math::cos(way), math::sin(way)) * length;
-                heading = way - math::asin(b);
+                let (a, b) = (rise(&before.normal), rise(&spot.normal));
+                let along = Vec2::new(normal.y, -normal.x);
+                let way = along * (1.0 - a * a).sqrt() + normal * a;
+                at += way * length;
+                normal = Vec2::new(-way.y, way.x) * (1.0 - b * b).sqrt() + way * b;
+                normal /= normal.norm();
                 let sagitta = length * (a - b) / 8.0;
                 slack = (sagitta.max(0.0), (-sagitta).max(0.0));
-                if turn(before, contact) > CORNER && length < 2.0 * NEAREST {
+                if (spot.normal - before.normal).norm() > CORNER && length < 2.0 * NEAREST {
                     corners.push(i);
                     slack = (0.0, 0.0);
                 }
@@ -78,20 +71,22 @@ impl Chart {
                     previous.slack = (previous.slack.0.max(slack.0), previous.slack.1.max(slack.1));
                 }
             }
-            stations.push(Station { t: *t, contact: *contact, at, heading, slack });
+            stations.push(Station { spot, at, normal, slack });
         }
-        Chart { stations, corners }
+        Chart { stations, corners, anchors }
     }
 
     pub(super) fn len(&self) -> usize {
         self.stations.len()
     }
+    /// The contact at a station, with a foot near by.
     pub(super) fn contact(&self, i: usize) -> Contact {
-        self.stations[i].contact
+        let Spot { centre, normal, anchor, .. } = self.stations[i].spot;
+        Contact { centre, normal, foot: self.anchors[anchor].contact.foot }
     }
     /// Parameter of the track at a station.
     pub(super) fn t(&self, i: usize) -> f64 {
-        self.stations[i].t
+        self.stations[i].spot.t
     }
     /// Smooth stretches, as their first and last stations.
     pub(super) fn pieces(&self) -> Vec<(usize, usize)> {
@@ -112,7 +107,7 @@ impl Chart {
     /// The place `off` the track at station `i`.
     pub(super) fn place(&self, i: usize, off: f64) -> Point2 {
         let s = &self.stations[i];
-        s.at + normal(s.heading) * off
+        s.at + s.normal * off
     }
     /// How far off the track a band from `low` to `high` reaches at a station, less what chords to its neighbours cut off.
     pub(super) fn gate(&self, i: usize, (low, high): (f64, f64)) -> (f64, f64) {
@@ -132,30 +127,33 @@ impl Chart {
     }
     /// Parameter of the track and distance off it of a place before station `next`; with a contact near by.
     pub(super) fn locate(&self, next: usize, p: Point2) -> (f64, f64, Contact) {
-        let b = &self.stations[next.min(self.stations.len() - 1)];
-        let a = &self.stations[next.min(self.stations.len() - 1).saturating_sub(1)];
+        let next = next.min(self.stations.len() - 1);
+        let before = next.saturating_sub(1);
+        let (a, b) = (&self.stations[before], &self.stations[next]);
         let chord = b.at - a.at;
+        let normal = |share: f64| {
+            let n = a.normal + (b.normal - a.normal) * share;
+            n / n.norm().max(1e-300)
+        };
         let (mut share, mut off) = (0.5, 0.0);
         for _ in 0..4 {
-            let heading = a.heading + (b.heading - a.heading) * share;
-            let n = normal(heading);
-            let foot = p - n * off;
+            let foot = p - normal(share) * off;
             share = ((foot - a.at).dot(&chord) / chord.norm_squared().max(1e-300)).clamp(0.0, 1.0);
             let on = a.at + chord * share;
-            off = (p - on).dot(&normal(a.heading + (b.heading - a.heading) * share));
+            off = (p - on).dot(&normal(share));
         }
         // The curve lies off the chord by its own sagitta.
         let bulge = (a.slack.1.min(b.slack.1) - a.slack.0.min(b.slack.0)) * 4.0 * share * (1.0 - share);
-        (a.t + (b.t - a.t) * share, off - bulge, a.contact)
+        (a.spot.t + (b.spot.t - a.spot.t) * share, off - bulge, self.contact(before))
     }
     /// Parameters of vertices: those that are known, and the ends; corners lie between their neighbours.
     pub(super) fn parameters(&self, vertices: &[Vertex]) -> Vec<f64> {
         let last = vertices.len().saturating_sub(1);
         let mut before = 0.0;
         let nearest = |v: &Vertex, from: f64| {
-            let ahead = self.stations.iter().filter(|s| s.t >= from);
-            let gap = |s: &&Station| (s.contact.centre - v.centre).norm_squared();
-            ahead.min_by(|a, b| gap(a).total_cmp(&gap(b))).map_or(from, |s| s.t)
+            let ahead = self.stations.iter().filter(|s| s.spot.t >= from);
+            let gap = |s: &&Station| (s.spot.centre - v.centre).norm_squared();
+            ahead.min_by(|a, b| gap(a).total_cmp(&gap(b))).map_or(from, |s| s.spot.t)
         };
         let place = |(i, v): (usize, &Vertex)| {
             before = match i {
@@ -168,31 +166,4 @@ impl Chart {
         };
         vertices.iter().enumerate().map(place).collect()
     }
-}
-
-fn normal(heading: f64) -> Vec2 {
-    Vec2::new(-math::sin(heading), math::cos(heading))
-}
-
-/// Angle between the normals, rad (for small angles).
-fn turn(a: &Contact, b: &Contact) -> f64 {
-    (b.normal - a.normal).norm()
-}
-
-/// Stations up to `to`, halved until chords deviate little.
-fn refine(track: &Track, to: (f64, Contact), sagitta: f64, found: &mut Vec<(f64, Contact)>) -> Option<()> {
-    let mut stack = vec![to];
-    while let Some((t, contact)) = stack.pop() {
-        let (from, before) = *found.last()?;
-        let length = (contact.centre - before.centre).norm();
-        let fine = length * turn(&before, &contact) / 8.0 <= sagitta;
-        if fine || length <= NEAREST || t - from < 1e-12 || found.len() >= MOST {
-            found.push((t, contact));
-            continue;
-        }
-        let middle = 0.5 * (from + t);
-        stack.push((t, contact));
-        stack.push((middle, track.at(middle, Some(&before))?));
-    }
-    Some(())
 }

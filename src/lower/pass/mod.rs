@@ -6,6 +6,7 @@
 //! to space, set on the grid, and every link is checked by its true distance from the surface. What fails is tried
 //! again in a narrower ribbon, and links that still fail are cut in two.
 
+mod anchors;
 mod arcs;
 mod chart;
 mod vertex;
@@ -187,7 +188,7 @@ struct Task<'a> {
 
 fn fit(task: &Task<'_>, pass: &Pass, capabilities: &Capabilities) -> Result<Chain, Trouble> {
     let ([first, last], [head, tail]) = (task.contacts, task.ends);
-    let chart = Chart::new(&task.track, 0.02 * (task.high - task.low), (first, last))
+    let chart = Chart::new(&task.track, 0.015 * (task.high - task.low), (first, last))
         .ok_or_else(|| lost(&task.track))?;
     let lines = task.best(&chart, head, tail);
     if !pass.arcs || no_arcs(pass, capabilities).is_some() {

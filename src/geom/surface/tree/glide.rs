@@ -9,13 +9,15 @@
 //! g'' ≤ B + P²/d_min, P = (B h²/2 + B h (d + h) + B² h³/2)/d_min
 //!
 //! over a way of the length h on which d stays between d_min and d. It takes that the followed point stays within its
-//! patch, which it does where the feet are farther from the patches' edges than it can go.
+//! patch, which it does where the feet are farther from the patches' edges than it can go. The parameters' rates are
+//! w = (a·e, b·e) with the dual basis a, b of r_u, r_v (a·r_u = b·r_v = 1, a·r_v = b·r_u = 0, both in the tangent
+//! plane): a way along u hardly moves v.
 
 use super::slide::sizes;
 use super::{SurfaceTree, box_distance, hull};
-use crate::geom::Point3;
 use crate::geom::surface::interval::Interval;
 use crate::geom::surface::patch::Patch;
+use crate::geom::{Point3, Vec3};
 
 /// Pieces of an edge of a patch.
 const PIECES: u32 = 16;
@@ -36,6 +38,34 @@ impl Box3 {
     fn distance(&self, x: Point3) -> f64 {
         box_distance(&self.low, &self.high, x)
     }
+    fn with(&self, other: &Box3) -> Box3 {
+        Box3 {
+            low: core::array::from_fn(|i| self.low[i].min(other.low[i])),
+            high: core::array::from_fn(|i| self.high[i].max(other.high[i])),
+        }
+    }
+}
+
+/// A vector that lies in a box.
+#[derive(Debug, Clone, Copy)]
+struct Loose {
+    middle: Vec3,
+    half: Vec3,
+}
+
+impl Loose {
+    fn new(range: [Interval; 3]) -> Loose {
+        let widened = range.map(|i| i.slackened(4.0));
+        Loose {
+            middle: Vec3::from(widened.map(|i| 0.5 * (i.lo + i.hi))),
+            half: Vec3::from(widened.map(|i| 0.5 * (i.hi - i.lo))) * (1.0 + 1e-12),
+        }
+    }
+
+    /// The largest component along a unit vector.
+    fn along(&self, e: Vec3) -> f64 {
+        self.middle.dot(&e).abs() + self.half.dot(&e.abs())
+    }
 }
 
 /// Bounds over a piece of a patch.
@@ -45,24 +75,50 @@ struct Swing {
     second: [f64; 3],
     /// |w_u| and |w_v| for J w of length 1, 1/mm.
     rate: [f64; 2],
+    /// The dual basis of r_u and r_v, 1/mm.
+    dual: [Loose; 2],
 }
 
 impl Swing {
-    const NONE: Swing = Swing { second: [0.0; 3], rate: [0.0; 2] };
-
     fn new(derivatives: &[[Interval; 3]; 5]) -> Swing {
         let ([ru, rv, ..], [u, v, uu, uv, vv]) = (derivatives, sizes(derivatives));
-        let cross = |a: usize, b: usize| ru[a] * rv[b] - ru[b] * rv[a];
+        let normal = cross(ru, rv);
         let least = |i: Interval| if i.lo > 0.0 { i.lo } else { (-i.hi).max(0.0) };
-        let area =
-            [cross(1, 2), cross(2, 0), cross(0, 1)].map(|i| least(i) * least(i)).iter().sum::<f64>().sqrt();
-        Swing { second: [uu, uv, vv], rate: [v / area, u / area] }
+        let area = normal.map(|i| least(i) * least(i)).iter().sum::<f64>().sqrt();
+        let inverse = (normal[0].square() + normal[1].square() + normal[2].square()).recip();
+        let dual = [cross(rv, &normal), cross(&normal, ru)].map(|d| Loose::new(d.map(|i| i * inverse)));
+        Swing {
+            second: [uu, uv, vv],
+            rate: [v, u].map(|x| if area > 0.0 { x / area } else { f64::INFINITY }),
+            dual,
+        }
     }
 
-    fn with(&self, other: &Swing) -> Swing {
-        Swing {
+    /// |w_u| and |w_v| for the tangential part of a unit vector.
+    fn rates(&self, e: Vec3) -> [f64; 2] {
+        // What is not a number is no bound: the other one stands.
+        core::array::from_fn(|i| self.rate[i].min(self.dual[i].along(e)))
+    }
+}
+
+fn cross(a: &[Interval; 3], b: &[Interval; 3]) -> [Interval; 3] {
+    let part = |i: usize, j: usize| a[i] * b[j] - a[j] * b[i];
+    [part(1, 2), part(2, 0), part(0, 1)]
+}
+
+/// Bounds over several pieces, for one way.
+#[derive(Debug, Clone, Copy, Default)]
+struct Fold {
+    second: [f64; 3],
+    rate: [f64; 2],
+}
+
+impl Fold {
+    fn with(&self, other: &Swing, e: Vec3) -> Fold {
+        let rates = other.rates(e);
+        Fold {
             second: core::array::from_fn(|i| self.second[i].max(other.second[i])),
-            rate: core::array::from_fn(|i| self.rate[i].max(other.rate[i])),
+            rate: core::array::from_fn(|i| self.rate[i].max(rates[i])),
         }
     }
 
@@ -73,28 +129,71 @@ impl Swing {
     }
 }
 
+/// Things with boxes in groups of neighbours, each with the box of all.
+#[derive(Debug, Clone)]
+struct Grouped<T> {
+    all: Vec<(Box3, T)>,
+    groups: Vec<Box3>,
+}
+
+/// Of a group.
+const GROUP: usize = 16;
+
+impl<T> Grouped<T> {
+    const EMPTY: Grouped<T> = Grouped { all: Vec::new(), groups: Vec::new() };
+
+    fn add(&mut self, place: Box3, thing: T) {
+        match self.groups.last_mut().filter(|_| self.all.len() % GROUP != 0) {
+            Some(group) => *group = group.with(&place),
+            None => self.groups.push(place),
+        }
+        self.all.push((place, thing));
+    }
+
+    /// What is no farther from `x` than `limit`.
+    fn within(&self, x: Point3, limit: f64) -> impl Iterator<Item = &T> {
+        let groups = self.groups.iter().zip(self.all.chunks(GROUP));
+        let things =
+            groups.filter(move |(group, _)| group.distance(x) <= limit).flat_map(|(_, things)| things);
+        things.filter(move |(place, _)| place.distance(x) <= limit).map(|(_, thing)| thing)
+    }
+
+    /// The distance of the nearest, or `limit` where all are farther.
+    fn nearest(&self, x: Point3, limit: f64) -> f64 {
+        self.groups.iter().zip(self.all.chunks(GROUP)).fold(limit, |least, (group, things)| {
+            let far = group.distance(x) >= least;
+            let things = if far { &[] } else { things };
+            things.iter().map(|(place, _)| place.distance(x)).fold(least, f64::min)
+        })
+    }
+}
+
 /// What is known of one patch: its pieces, and the pieces of its edges.
 #[derive(Debug, Clone)]
 pub(super) struct Swings {
     whole: Box3,
-    pieces: Vec<(Box3, Swing)>,
-    edges: Vec<Box3>,
+    pieces: Grouped<Swing>,
+    edges: Grouped<()>,
 }
 
 impl Swings {
     pub(super) fn new(patch: &Patch) -> Swings {
         let part = |k: u32| f64::from(k) / f64::from(PIECES);
-        let ends = [0.0, 1.0];
-        let pieces = (0..PIECES).flat_map(|k| ends.map(|end| ((part(k), part(k + 1)), (end, end))));
-        let edges = pieces
-            .flat_map(|(along, end)| [(along, end), (end, along)])
-            .map(|(u, v)| Box3::new(&hull(&patch.restrict(u, v))))
-            .collect();
-        Swings { whole: Box3::new(&hull(patch)), pieces: Vec::new(), edges }
+        let mut edges = Grouped::EMPTY;
+        for end in [0.0, 1.0] {
+            for axis in [0, 1] {
+                for k in 0..PIECES {
+                    let (along, end) = ((part(k), part(k + 1)), (end, end));
+                    let (u, v) = if axis == 0 { (along, end) } else { (end, along) };
+                    edges.add(Box3::new(&hull(&patch.restrict(u, v))), ());
+                }
+            }
+        }
+        Swings { whole: Box3::new(&hull(patch)), pieces: Grouped::EMPTY, edges }
     }
 
     pub(super) fn add(&mut self, hull: &[Interval; 3], derivatives: &[[Interval; 3]; 5]) {
-        self.pieces.push((Box3::new(hull), Swing::new(derivatives)));
+        self.pieces.add(Box3::new(hull), Swing::new(derivatives));
     }
 }
 
@@ -125,16 +224,16 @@ impl Glide {
 }
 
 impl SurfaceTree {
-    /// For ways of this `length` about `middle`, where the surface is no farther than `most` from any place of it; `None`
-    /// where the surface is too wild.
+    /// For ways of this `length` and direction about `middle`, where the surface is no farther than `most` from any place of
+    /// it; `None` where the surface is too wild.
     #[must_use]
-    pub fn glide(&self, middle: Point3, length: f64, most: f64) -> Option<Glide> {
+    pub fn glide(&self, middle: Point3, (along, length): (Vec3, f64), most: f64) -> Option<Glide> {
         let around = 0.5 * length + most + FASTER * length;
-        let (mut swing, mut free) = (Swing::NONE, f64::INFINITY);
+        // Edges beyond all that is near do not matter.
+        let (mut swing, mut free) = (Fold::default(), 2.0 * around);
         for patch in self.glides.iter().filter(|p| p.whole.distance(middle) <= around) {
-            let near = patch.pieces.iter().filter(|p| p.0.distance(middle) <= around);
-            swing = near.fold(swing, |s, p| s.with(&p.1));
-            free = patch.edges.iter().map(|e| e.distance(middle)).fold(free, f64::min);
+            swing = patch.pieces.within(middle, around).fold(swing, |s, p| s.with(p, along));
+            free = patch.edges.nearest(middle, free);
         }
         let bend = swing.bend();
         (bend.is_finite() && free > most).then_some(Glide { bend, middle: 0.5 * length, free })
