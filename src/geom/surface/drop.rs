@@ -4,6 +4,7 @@
 //! function d: z is found by Newton's method on d(z) = R with ∂d/∂z = n·z, on the foot that is nearest; the answer is
 //! accepted when no other point of the surface, edges included, is nearer than R.
 
+use super::cutter::Cutter;
 use super::tree::{Foot, SurfaceTree};
 use crate::geom::{Point3, Vec3};
 
@@ -29,25 +30,38 @@ const STEPS: u32 = 200;
 /// `hint`: the contact at a place near by.
 #[must_use]
 pub fn drop_ball(tree: &SurfaceTree, radius: f64, x: f64, y: f64, hint: Option<&Contact>) -> Option<Contact> {
-    let (low, high) = tree.bounds();
-    let (mut centre, mut foot) = match hint.filter(|c| c.normal.z > UPRIGHT) {
-        Some(c) => {
-            let slope = -(c.normal.x * (x - c.centre.x) + c.normal.y * (y - c.centre.y)) / c.normal.z;
-            let z = (c.centre.z + slope).clamp(low.z - radius, high.z + radius);
-            (Point3::new(x, y, z), c.foot)
-        }
-        None => {
-            let start = Point3::new(x, y, ceiling(tree, radius, x, y)?);
-            (start, tree.nearest(start, None))
-        }
-    };
+    let hinted = hint.filter(|c| c.normal.z > UPRIGHT).and_then(|c| {
+        let (low, high) = tree.bounds();
+        let slope = -(c.normal.x * (x - c.centre.x) + c.normal.y * (y - c.centre.y)) / c.normal.z;
+        let z = (c.centre.z + slope).clamp(low.z - radius, high.z + radius);
+        settled(tree, radius, (Point3::new(x, y, z), c.foot), false)
+    });
+    // A part of the surface above could hold the ball higher up.
+    if let Some(contact) = hinted.filter(|c| tree.is_upright() || !covered(tree, radius, c.centre)) {
+        return Some(contact);
+    }
+    let start = Point3::new(x, y, ceiling(tree, radius, x, y)?);
+    settled(tree, radius, (start, tree.nearest(start, None)), true).or_else(|| {
+        // Beside a wall that is nearer than what holds the ball.
+        let rest = tree.rest(&Cutter::ball(radius), [x, y], None)?;
+        settled(tree, radius, (rest.centre, rest.foot), false).or(Some(rest))
+    })
+}
+
+/// The position that a search up and down from a centre and a foot of it comes to; `from_above`: nothing touches above it.
+fn settled(
+    tree: &SurfaceTree,
+    radius: f64,
+    (mut centre, mut foot): (Point3, Foot),
+    from_above: bool,
+) -> Option<Contact> {
     let mut certain = false;
     for _ in 0..STEPS {
         foot = if certain { tree.nearest(centre, Some(&foot)) } else { tree.nearby(centre, &foot) };
         let off = radius - foot.distance;
-        if off.abs() <= TOUCHES || certain && off < TOUCHES && off > -TOUCHES {
+        if off.abs() <= TOUCHES {
             if certain {
-                return rests(tree, radius, centre, foot, hint.is_some());
+                return Some(Contact { centre, normal: (centre - foot.point) / foot.distance, foot });
             }
             certain = true;
             continue;
@@ -55,21 +69,18 @@ pub fn drop_ball(tree: &SurfaceTree, radius: f64, x: f64, y: f64, hint: Option<&
         let up = (centre.z - foot.point.z) / foot.distance;
         if up < UPRIGHT {
             // The foot is beside or above: whether anything touches is seen from above only.
-            if hint.is_some() {
-                return drop_ball(tree, radius, x, y, None);
-            }
-            if beside(centre, &foot) >= radius {
+            let beside = beside(centre, &foot);
+            if !from_above || beside >= radius {
                 return None;
             }
-            centre.z =
-                foot.point.z + (radius * radius - beside(centre, &foot) * beside(centre, &foot)).sqrt();
+            centre.z = foot.point.z + (radius * radius - beside * beside).sqrt();
             continue;
         }
         // Only a step up may be trusted blindly: what is nearer than the radius must be cleared.
         certain = certain && off > 0.0;
         centre.z += (off / up).clamp(-radius, radius);
     }
-    if hint.is_some() { drop_ball(tree, radius, x, y, None) } else { None }
+    None
 }
 
 /// A height above which a ball over (x, y) touches nothing; `None` where it touches nothing at any height.
@@ -92,14 +103,6 @@ fn ceiling(tree: &SurfaceTree, radius: f64, x: f64, y: f64) -> Option<f64> {
 /// Distance in plan.
 fn beside(centre: Point3, foot: &Foot) -> f64 {
     crate::math::hypot(centre.x - foot.point.x, centre.y - foot.point.y)
-}
-
-/// The contact, unless a part of the surface above could hold the ball higher up.
-fn rests(tree: &SurfaceTree, radius: f64, centre: Point3, foot: Foot, hinted: bool) -> Option<Contact> {
-    if hinted && !tree.is_upright() && covered(tree, radius, centre) {
-        return drop_ball(tree, radius, centre.x, centre.y, None);
-    }
-    Some(Contact { centre, normal: (centre - foot.point) / foot.distance, foot })
 }
 
 /// Whether some box of surface within the ball's plan rises above its centre.
