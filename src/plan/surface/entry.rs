@@ -1,6 +1,7 @@
 //! The way onto a surface: from above down to the start of an arc that ends on the pass with its tangent.
 
 use super::{lanes, start_of};
+use crate::geom::surface::swept::{self, Question};
 use crate::geom::surface::{Contact, Track};
 use crate::geom::{Point3, Vec3};
 use crate::math;
@@ -11,6 +12,8 @@ const SHARE: f64 = 0.5;
 const CHORDS: u32 = 9;
 /// Arcs are tried down to this part of the radius.
 const TRIES: u32 = 4;
+/// What is nearer than the radius by no more than this grazes, mm.
+const GRAZES: f64 = 1e-6;
 
 /// Centre points of a ball on its way onto a track, from the highest down to its start (that one left out): chords of a
 /// quarter circle in the plane of the pass's tangent and the surface's normal, on the clear side of it. Where no arc
@@ -23,15 +26,22 @@ pub(super) fn onto(track: &Track) -> Vec<Point3> {
     for halvings in 0..TRIES {
         let radius = radius / f64::from(1 << halvings);
         let Some(points) = tangent.and_then(|t| arc(&start, t, radius)) else { break };
-        let clear = |p: &Point3| {
-            track.tree.nearest_within(*p, Some(&start.foot), track.radius * 1.01).certain >= track.radius
-        };
-        let free = if ball { points.iter().all(clear) } else { lanes::clear(track, &points) };
+        let free = if ball { clear(track, &start, &points) } else { lanes::clear(track, &points) };
         if free {
             return points;
         }
     }
     vec![start.centre + Vec3::z() * radius]
+}
+
+/// Whether a ball is clear of the surface on straight ways between points, and from the last of them to the start.
+fn clear(track: &Track, start: &Contact, points: &[Point3]) -> bool {
+    let question = Question { enough: track.radius, little: f64::INFINITY, accuracy: GRAZES };
+    let ends = points.iter().skip(1).chain([&start.centre]);
+    points.iter().zip(ends).all(|(from, to)| {
+        let found = swept::extremes(&track.tree, *from, *to, &question, Some(&start.foot));
+        found.least.distance >= track.radius - GRAZES
+    })
 }
 
 fn tangent(track: &Track, start: &Contact) -> Option<Vec3> {
