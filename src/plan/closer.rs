@@ -62,6 +62,11 @@ impl Shares {
 }
 
 impl Shares {
+    /// Whether nothing is asked for.
+    pub(super) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
     /// The share that may be used all over the surface.
     fn everywhere(&self) -> f64 {
         self.0.iter().filter(|place| place.reach.is_infinite()).map(|place| place.share).fold(1.0, f64::min)

@@ -183,8 +183,8 @@ impl Family {
         let own = rim.inside(places[k]);
         let beside = [k.checked_sub(1), Some(k + 1)].into_iter().flatten().filter_map(|i| places.get(i));
         let all = beside.flat_map(|place| rim.inside(*place)).chain(own.iter().copied());
-        let wanted = outline::united(all.map(|(a, b)| (a - BEYOND, b + BEYOND)));
         let at = |along: f64| rim.place(along, places[k]);
+        let wanted = outline::united(all.map(|(a, b)| (a - self.beyond(at(a)), b + self.beyond(at(b)))));
         let reach = |from: f64, to: f64| {
             let (a, b) = (at(from), at(to));
             let share = if to == from { 1.0 } else { self.resting(a, b) };
@@ -206,6 +206,17 @@ impl Family {
             out.push((start, reach(end, high)));
         }
         out
+    }
+
+    /// How far a plan pass goes on beyond its end: farther where cusps must be lower, since at a corner of the surface no
+    /// neighbour cuts what it leaves.
+    fn beyond(&self, end: Point2) -> f64 {
+        const MOST: f64 = 0.3;
+        if self.shares.is_empty() {
+            return BEYOND;
+        }
+        let share = self.rests(end, None).map_or(1.0, |c| self.share(c.foot.point));
+        BEYOND + (1.0 - share) * MOST * self.ball
     }
 
     /// Where the ball rests over a place; `None` also where it would hang at the side of the surface.
