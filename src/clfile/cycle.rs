@@ -231,10 +231,12 @@ impl Reader<'_> {
     }
 
     fn cycle_dwell(&self, s: &Statement) -> Result<Option<f64>, String> {
-        let seconds = match (s.after("DWELL"), s.after("REV"), self.state.spindle) {
-            (Some(seconds), ..) => seconds,
-            (None, Some(turns), Some(Spindle::On { rpm, .. })) => turns * 60.0 / rpm,
-            (None, Some(_), _) => return Err("revolutions of dwell need a turning spindle".to_owned()),
+        // `DWELL, 2` are seconds; `DWELL, 2, REV`, `DWELL, REV, 2` and `REV, 2` are turns.
+        let turns = s.after("REV").or_else(|| s.after("DWELL").filter(|_| s.has("REV")));
+        let seconds = match (turns, s.after("DWELL"), self.state.spindle) {
+            (None, Some(seconds), _) => seconds,
+            (Some(turns), _, Some(Spindle::On { rpm, .. })) => turns * 60.0 / rpm,
+            (Some(_), ..) => return Err("revolutions of dwell need a turning spindle".to_owned()),
             _ => return Ok(None),
         };
         if !(0.0..=LONGEST_DWELL).contains(&seconds) {

@@ -182,7 +182,9 @@ impl<'a> Events<'a> {
         let name = self.writer.dialect.spec.comments.clean(&tool.name);
         let called = format!("T{number}");
         let label = if name.eq_ignore_ascii_case(&called) { called } else { format!("{called} {name}") };
-        let text = format!("{label}, {kind}, D={}", length(tool.diameter));
+        // A CL file may say nothing of its cutters.
+        let text =
+            if tool.diameter > 0.0 { format!("{label}, {kind}, D={}", length(tool.diameter)) } else { label };
         let degrees = |radians: f64| {
             number::steps(radians / math::DEG, ANGLE_DECIMALS)
                 .map_or_else(String::new, |s| number::plain(s, ANGLE_DECIMALS))

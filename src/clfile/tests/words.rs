@@ -152,6 +152,10 @@ fn cycles_in_their_spellings() {
     assert_eq!(tap.kind, CycleKind::Tap { pitch: 1.25, left: false });
     assert_eq!(cycle("CYCLE/ BORE, FEDTO, 9, MMPM, 60, RAPTO, 2").kind, CycleKind::Bore);
     assert_eq!(cycle("CYCLE/ BORE, FEDTO, 9, MMPM, 60, RAPTO, 2, DWELL, 1").kind, CycleKind::BoreDwell);
+    let dwell = |words: &str| cycle(&format!("CYCLE/ FACE, FEDTO, 2, MMPM, 50, RAPTO, 2, {words}")).dwell;
+    assert_eq!(dwell("DWELL, 3, REV"), dwell("DWELL, REV, 3"));
+    assert_eq!(dwell("DWELL, 3, REV"), dwell("REV, 3"));
+    assert!(dwell("DWELL, 3, REV") < Some(1.0));
 }
 
 #[test]
