@@ -54,6 +54,9 @@ const GRID: f64 = 2.0;
 const FEW: usize = 12;
 /// Distances off the track at which vertices are tried where the gates of a ribbon cross, as shares of the band.
 const OFFS: [f64; 3] = [0.5, 0.1, 0.9];
+/// Where walls that a cutter touches at once are so steep to one another (the cosine between their normals), a vertex off one of
+/// them may be within the other.
+const SHARP: f64 = 0.3;
 /// Cuts of one failing link at most.
 const DEEPEST: u32 = 12;
 
@@ -273,8 +276,7 @@ impl<'a> Task<'a> {
             let (low, high) = (self.low + margin, self.high - margin);
             let (start, end) =
                 (out.last().copied().unwrap_or(head), (piece.1 == chart.len() - 1).then_some(tail));
-            let end =
-                end.or_else(|| self.vertex(&chart.contact(piece.1), 0.5 * (low + high), chart.t(piece.1)));
+            let end = end.or_else(|| self.between(chart, piece.1, 0.5 * (low + high)));
             let from = chart.place(piece.0, start.off.clamp(low, high));
             let to = chart.place(piece.1, end.map_or(0.5 * (low + high), |v| v.off).clamp(low, high));
             let ribbon = chart.ribbon(piece, low, high);
@@ -291,6 +293,19 @@ impl<'a> Task<'a> {
         }
         out.dedup_by(|b, a| a.steps == b.steps);
         out
+    }
+
+    /// The vertex in which the pieces before and after a station meet.
+    fn between(&self, chart: &Chart, station: usize, off: f64) -> Option<Vertex> {
+        let (contact, t) = (chart.contact(station), chart.t(station));
+        let after = chart.contact((station + 1).min(chart.len() - 1));
+        let sharp = contact.normal.dot(&after.normal) < SHARP;
+        let range = (self.low, self.high);
+        let corner = self.lattice.midway(contact.normal, after.normal).filter(|_| sharp);
+        match corner.and_then(|n| self.lattice.vertex(&contact, off, range, n)) {
+            Some(vertex) => Some(Vertex { t, ..vertex }),
+            None => self.vertex(&contact, off, t),
+        }
     }
 
     /// Where the gates of the ribbon cross: vertices at stations, each as far on as a straight way holds, at one of a

@@ -7,6 +7,9 @@ use crate::geom::{Point2, Point3, Vec3};
 /// Vertices of passes that meet are no farther apart than this, steps, or half the band.
 const NEAR: f64 = 3.0;
 
+/// Walls between which a vertex moves less than this off them, for each step of its own, leave it no room.
+const STEEPEST: f64 = 0.05;
+
 /// The grid, as the tip of a ball sees it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Lattice {
@@ -102,6 +105,22 @@ impl Lattice {
         let off = (centre - contact.centre).dot(&contact.normal);
         let good = near && !beside && off >= range.0 && off <= range.1;
         good.then_some(Vertex { steps, centre, off, foot: contact.foot, t: f64::NAN })
+    }
+
+    /// The direction in which a vertex moves off two walls with these normals alike: in its plane for a plane pass. `None` where
+    /// there is none.
+    pub(super) fn midway(&self, a: Vec3, b: Vec3) -> Option<Vec3> {
+        let middle = match self.axis {
+            Some(axis) => {
+                let apart = a - b;
+                let mut across = Vec3::zeros();
+                across[axis] = -apart.z;
+                across.z = apart[axis];
+                across * across.dot(&a).signum()
+            }
+            None => a + b,
+        };
+        middle.try_normalize(1e-9).filter(|n| n.dot(&a).min(n.dot(&b)) > STEEPEST)
     }
 
     /// The direction in which vertices move off the track: in its plane for a plane pass, else along the normal.
