@@ -207,6 +207,35 @@ fn passes_at_one_distance_lie_at_that_distance() {
     }
 }
 
+/// Steep nets with valleys in which the ball touches two walls, and with corners that no neighbouring pass cuts.
+#[test]
+fn steep_nets_are_finished_in_planes() {
+    type Steep = (f64, [i32; 16], &'static str, &'static str);
+    let steep: [Steep; 2] = [
+        (3.0, [-1, -6, -5, 3, 0, -10, -8, -10, 10, 4, -11, 6, 5, -10, 4, 11], "BALL, 3", "Y, CUSP, 0.1"),
+        (4.0, [-14, 9, 6, 2, 1, -10, -4, 15, -12, 0, -2, 10, 4, 10, -16, 8], "BALL, 3", "X, CUSP, 0.1"),
+    ];
+    for (side, heights, cutter, operation) in steep {
+        let pole = |k: usize| [side * (k / 4) as f64, side * (k % 4) as f64, f64::from(heights[k])];
+        let net = Net { rows: 4, columns: 4, poles: (0..16).map(pole).collect() };
+        let build = built_by(cutter, &format!("N1 = {}", net.text()), operation);
+        let proof = outcome(&build).unwrap_or_else(|codes| panic!("{operation}: {codes:?}"));
+        assert!(proof.into.value <= 1e-6 && proof.out.value <= 0.02 + 1e-6, "{operation}");
+        assert!(proof.left_bound <= 0.12 + 1e-4, "{operation} {}", proof.left_bound);
+    }
+}
+
+/// The ball's rolling over a straight border of a ruled net takes long moves beside that border.
+#[test]
+fn long_moves_beside_a_border_are_proven() {
+    let z = [5.6, 1.0, -4.7, -0.4];
+    let pole = |k: usize| [11.0 * (k / 4) as f64, 16.0 * (k % 4) as f64, z[k / 4]];
+    let net = Net { rows: 4, columns: 4, poles: (0..16).map(pole).collect() };
+    let build = built_by("BALL, 1", &format!("N1 = {}", net.text()), "Y, STEP, 4");
+    let proof = outcome(&build).unwrap_or_else(|codes| panic!("{codes:?}"));
+    assert!(proof.into.value <= 1e-6 && proof.out.value <= 0.02 + 1e-6);
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 12, failure_persistence: None, ..ProptestConfig::default() })]
 

@@ -182,6 +182,30 @@ mod tests {
         }
     }
 
+    /// A ball beside steep walls, over the net and past its border, is held where the search for other cutters finds it held.
+    #[test]
+    fn a_ball_beside_steep_walls_finds_what_holds_it() {
+        let z = [
+            [-1.0, -6.0, -5.0, 3.0],
+            [0.0, -10.0, -8.0, -10.0],
+            [10.0, 4.0, -11.0, 6.0],
+            [5.0, -10.0, 4.0, 11.0],
+        ];
+        let tree = SurfaceTree::new(graph([0.0, 3.0, 6.0, 9.0], [0.0, 3.3, 6.7, 10.0], z), 1.0);
+        let mut held = 0;
+        for k in 0..400u32 {
+            let (x, y) = (-1.2 + 11.4 * f64::from(k % 20) / 19.0, -1.2 + 12.4 * f64::from(k / 20) / 19.0);
+            let own = drop_ball(&tree, 1.0, x, y, None);
+            let other = tree.rest(&Cutter::ball(1.0), [x, y], None);
+            assert_eq!(own.is_some(), other.is_some(), "{x} {y}");
+            if let (Some(own), Some(other)) = (own, other) {
+                held += 1;
+                assert!((own.centre.z - other.centre.z).abs() < 1e-6, "{x} {y}: {own:?} {other:?}");
+            }
+        }
+        assert!(held > 300, "{held}");
+    }
+
     #[test]
     fn far_from_the_surface_nothing_holds_the_ball() {
         assert_eq!(drop_ball(&cavity(), 5.0, -6.0, 20.0, None), None);

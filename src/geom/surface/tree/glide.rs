@@ -143,7 +143,7 @@ impl<T> Grouped<T> {
     const EMPTY: Grouped<T> = Grouped { all: Vec::new(), groups: Vec::new() };
 
     fn add(&mut self, place: Box3, thing: T) {
-        match self.groups.last_mut().filter(|_| self.all.len() % GROUP != 0) {
+        match self.groups.last_mut().filter(|_| !self.all.len().is_multiple_of(GROUP)) {
             Some(group) => *group = group.with(&place),
             None => self.groups.push(place),
         }
