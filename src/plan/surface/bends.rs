@@ -8,7 +8,9 @@
 use std::sync::Arc;
 
 use super::apart::{AIM, Apart, CLOSEST, Course, Lane, MOST, Station};
+use super::march::faired;
 use super::scale::Scale;
+use super::spread::{Line, smooth};
 use rayon::prelude::*;
 
 use crate::geom::surface::{Contact, Cutter, Rim, SurfaceTree};
@@ -55,8 +57,8 @@ pub(super) enum Rule {
     Step(f64),
 }
 
-/// How far across a pass lies at every column, mm; no number where there is none.
-pub(super) type Line = Vec<f64>;
+/// What passes use is smooth over so many columns.
+const SMOOTH: usize = 2;
 
 /// Bent passes over a net.
 pub(super) struct Bends<'a> {
@@ -401,7 +403,7 @@ impl Bends<'_> {
             }
             let gone = |k: usize| line[k] - from[k];
             let at_last = columns().all(|k| line[k] >= width || gone(k) >= 0.99 * limit);
-            let needs = smooth(&used);
+            let needs = smooth(&used, SMOOTH);
             let next = |range: (f64, f64), need: &dyn Fn(usize) -> f64| -> Line {
                 let at = |k: usize| match open[k] {
                     false => step[k],
@@ -532,31 +534,5 @@ fn pool(found: &[(f64, f64)], columns: &mut [f64]) {
         for own in &mut columns[k.saturating_sub(AROUND)..(k + AROUND + 1).min(COLUMNS)] {
             *own = own.max(*value);
         }
-    }
-}
-
-/// The mean, over a few columns, of the largest value of a few columns: never below the value itself.
-fn smooth(values: &[f64]) -> Line {
-    const SMOOTH: usize = 2;
-    let around = |k: usize| k.saturating_sub(SMOOTH)..(k + SMOOTH + 1).min(values.len());
-    let upper: Line =
-        (0..values.len()).map(|k| values[around(k)].iter().copied().fold(0.0, f64::max)).collect();
-    let mean = |k: usize| {
-        let part = &upper[around(k)];
-        part.iter().sum::<f64>() / count(part.len())
-    };
-    (0..values.len()).map(mean).collect()
-}
-
-/// Each inner value half way to the mean of its neighbours.
-fn faired(line: &mut Line) {
-    let mut before = f64::NAN;
-    for k in 0..line.len() {
-        let (own, after) = (line[k], line.get(k + 1).copied().unwrap_or(f64::NAN));
-        let mean = 0.25 * before + 0.5 * own + 0.25 * after;
-        if !mean.is_nan() {
-            line[k] = mean;
-        }
-        before = own;
     }
 }

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 
 use super::family::Family;
 use super::ridge::{Row, Target, border, gap};
-use super::spread::{COLUMNS, Ends, Line, MOST, Spread, measure, smooth};
+use super::spread::{COLUMNS, Ends, Line, MOST, SMOOTH, Spread, measure, smooth};
 
 /// Rounds of measuring and moving one pass.
 const ROUNDS: u32 = 30;
@@ -256,7 +256,7 @@ impl March<'_> {
             {
                 return Front { line, row, step };
             }
-            let needs = if round < FREE { smooth(&used) } else { vec![worst.max(1.0); COLUMNS] };
+            let needs = if round < FREE { smooth(&used, SMOOTH) } else { vec![worst.max(1.0); COLUMNS] };
             for k in (0..COLUMNS).filter(|k| open[*k]) {
                 // What lies on the border cannot go on, and comes back from there.
                 let on_border = line[k] == edge;
@@ -290,7 +290,7 @@ fn placed(open: &[bool; COLUMNS], from: &Line, step: &Line, edge: f64) -> Line {
 }
 
 /// Each inner value half way to the mean of its neighbours.
-fn faired(line: &mut Line) {
+pub(super) fn faired(line: &mut Line) {
     let mut before = f64::NAN;
     for k in 0..line.len() {
         let (own, after) = (line[k], line.get(k + 1).copied().unwrap_or(f64::NAN));

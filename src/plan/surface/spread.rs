@@ -26,7 +26,7 @@ const FULL: f64 = 1.002;
 /// Distances of passes that are measured at once: their contacts are kept in memory.
 const BLOCK: usize = 512;
 /// What curved passes use is smooth over so many columns.
-const SMOOTH: usize = 4;
+pub(super) const SMOOTH: usize = 4;
 
 /// *Across* of a pass at every column; no number where there is no pass.
 pub(super) type Line = Vec<f64>;
@@ -115,9 +115,9 @@ fn level(needs: &mut [Line]) {
     }
 }
 
-/// The mean, over a few columns, of the largest value of a few columns: never below the value itself.
-pub(super) fn smooth(values: &[f64]) -> Line {
-    let around = |k: usize| k.saturating_sub(SMOOTH)..(k + SMOOTH + 1).min(values.len());
+/// The mean, over `reach` columns to either side, of the largest value of as many: never below the value itself.
+pub(super) fn smooth(values: &[f64], reach: usize) -> Line {
+    let around = |k: usize| k.saturating_sub(reach)..(k + reach + 1).min(values.len());
     let upper: Line =
         (0..values.len()).map(|k| values[around(k)].iter().copied().fold(0.0, f64::max)).collect();
     let mean = |k: usize| {
@@ -269,7 +269,7 @@ mod tests {
         let mut values = vec![1.0; COLUMNS];
         values[40] = 3.0;
         values[0] = 2.0;
-        let smoothed = smooth(&values);
+        let smoothed = smooth(&values, SMOOTH);
         assert!(values.iter().zip(&smoothed).all(|(v, s)| s >= v));
         assert!(smoothed[60] == 1.0);
     }
