@@ -1,13 +1,12 @@
 //! Arcs as CATIA writes them: `INDIRV` and `TLON,GOFWD`, and `HELICAL`.
 
+use super::circle::SAME;
 use super::grammar::{Arg, Statement};
 use super::reader::Reader;
 use crate::diag::codes::foreign as codes;
 use crate::geom::{Point3, Vec3};
 use crate::math::{TAU, atan2};
 
-/// Angles below this, radians, are none: the start is not its own end.
-const NO_ANGLE: f64 = 1e-6;
 /// How far a check line may miss its circle, as a share of the radius.
 const MISS: f64 = 1e-4;
 /// Full turns of one helix at most.
@@ -94,7 +93,7 @@ impl Reader<'_> {
         let height = drive.axis * from.dot(&drive.axis);
         let mut ends = [foot + d * half, foot - d * half].map(|e| {
             let turn = atan2(drive.axis.dot(&from.cross(&e)), (from - height).dot(&e));
-            (if turn <= NO_ANGLE { turn + TAU } else { turn }, e)
+            (if turn <= no_angle(drive.radius) { turn + TAU } else { turn }, e)
         });
         ends.sort_by(|a, b| a.0.total_cmp(&b.0));
         let chosen = if order >= 2.0 { ends[1] } else { ends[0] };
@@ -123,7 +122,7 @@ impl Reader<'_> {
         let pitch = pitch.abs() * self.state.scale;
         let (u, v) = (start - centre, end - centre);
         let turn = atan2(axis.dot(&u.cross(&v)), u.dot(&v) - u.dot(&axis) * v.dot(&axis));
-        let sweep = if turn <= NO_ANGLE { turn + TAU } else { turn };
+        let sweep = if turn <= no_angle(radius.abs() * self.state.scale) { turn + TAU } else { turn };
         let turns = if pitch > 0.0 { rise / pitch - sweep / TAU } else { 0.0 };
         let turns = turns.round().clamp(0.0, MOST_TURNS) as u32;
         self.known_arc(centre, axis, radius.abs() * self.state.scale, turns, end);
@@ -136,6 +135,11 @@ struct Drive {
     axis: Vec3,
     radius: f64,
     start: Point3,
+}
+
+/// Angles up to this, radians, are none: the start of an arc is not its own end.
+fn no_angle(radius: f64) -> f64 {
+    SAME / radius.max(SAME)
 }
 
 fn vector(numbers: &[f64]) -> Option<Vec3> {

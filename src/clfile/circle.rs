@@ -20,6 +20,8 @@ const SPIRAL: f64 = 0.1;
 const SPIRAL_SHARE: f64 = 0.02;
 /// Angle of an arc that is rounding, radians; or that of [`TRUST`] if that is more.
 const ANGLE_ROUNDING: f64 = 0.002;
+/// Distance in the circle's plane below which an arc's end is its start, mm: no arc is as short, a full circle is meant.
+pub(super) const SAME: f64 = 5e-4;
 /// Full turns of one record at most.
 const MOST_TURNS: f64 = 10_000.0;
 
@@ -266,8 +268,17 @@ impl Reader<'_> {
         self.pause_cycle();
         self.make_sure();
         self.state.moved = true;
+        let axis = pending.axis;
+        let to = self.state.at.map_or(to, |start| {
+            let rise = axis * (to - start).dot(&axis);
+            match (to - start - rise).norm() <= SAME {
+                true if rise.norm() <= SAME => start,
+                true => start + rise,
+                false => to,
+            }
+        });
         if self.ready() {
-            let Pending { centre, axis, turns, .. } = *pending;
+            let Pending { centre, turns, .. } = *pending;
             let tolerance = self.state.tolerance();
             self.emit(RecordKind::Circle(Box::new(Circle { to, centre, axis, turns, tolerance })));
         }

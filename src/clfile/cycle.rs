@@ -148,6 +148,9 @@ impl Reader<'_> {
         let word = s.words().skip(1).find(|w| FINER.contains(w)).unwrap_or(word);
         let kind = self.kind(word, s, dwell, feed)?;
         let (peck, first_peck) = pecks(s, scale);
+        if let Some(v) = spare_number(s) {
+            return Err(format!("the cycle has a number that belongs to no word: {v}"));
+        }
         if matches!(kind, CycleKind::Deep | CycleKind::ChipBreak) && peck.is_none() {
             return Err("the cycle has no depth of cut: STEP or SUBPECK".to_owned());
         }
@@ -274,6 +277,12 @@ impl Reader<'_> {
         let level = asked.level(point.z, self.state.at);
         match self.state.at {
             Some(at) if at.z < level => self.emit(RecordKind::Rapid(Point3::new(at.x, at.y, level))),
+            // From above, over the hole and down: it is where the tool comes back to.
+            Some(at) if at.z > level && matches!(asked.return_to, Return::Above(_)) => {
+                for z in [at.z, level] {
+                    self.emit(RecordKind::Rapid(Point3::new(point.x, point.y, z)));
+                }
+            }
             Some(_) => {}
             None => {
                 self.emit(RecordKind::Rapid(Point3::new(point.x, point.y, level)));
@@ -322,13 +331,61 @@ impl Reader<'_> {
     }
 }
 
-/// Depth of the pecks but the first, and of the first where it differs, mm.
+/// Depth of the pecks but the first, and of the first where it differs, mm. Of more than one number behind a word the
+/// first is the first peck's, and the smallest of the others that of all others.
 fn pecks(s: &Statement, scale: f64) -> (Option<f64>, Option<f64>) {
+    let least = |numbers: &[f64]| numbers.iter().copied().filter(|v| *v > 0.0).reduce(f64::min);
     let value = |words: &[&str]| words.iter().find_map(|w| s.after(w)).filter(|v| *v > 0.0);
-    let next = NEXT_PECKS.iter().filter_map(|w| s.after(w)).filter(|v| *v > 0.0).reduce(f64::min);
-    let first = value(FIRST_PECK);
-    let peck = value(PECK).or(next).or(first).map(|v| v * scale);
+    let listed = PECK.iter().map(|w| listed(s, w)).find(|l| !l.is_empty()).unwrap_or_default();
+    let (head, others) =
+        listed.split_first().map_or((None, &[][..]), |(h, o)| (Some(*h).filter(|v| *v > 0.0), o));
+    let next = NEXT_PECKS.iter().filter_map(|w| s.after(w)).collect::<Vec<_>>();
+    let first = value(FIRST_PECK).or(head.filter(|_| !others.is_empty()));
+    let peck = least(others).or(head).or(least(&next)).or(first).map(|v| v * scale);
     (peck, first.map(|v| v * scale).filter(|v| Some(*v) != peck))
+}
+
+/// All numbers behind a word, but those that are depth, or peck, and feed before the unit of the feed.
+fn listed(s: &Statement, word: &str) -> Vec<f64> {
+    let is_it = |w: &[Arg]| matches!(w, [Arg::Word(w), Arg::Number(_)] if w == word);
+    let Some(at) = s.args.windows(2).position(is_it) else { return Vec::new() };
+    let numbers = s.args[at + 1..].iter().map_while(|a| if let Arg::Number(v) = a { Some(*v) } else { None });
+    let mut numbers: Vec<f64> = numbers.collect();
+    if feed_before(s, at + 1 + numbers.len()).is_some() {
+        numbers.pop();
+    }
+    numbers
+}
+
+/// Whether every number has its word, as in the cycles of NX, Creo and ISO 4343; CATIA's have their order.
+fn named(s: &Statement) -> bool {
+    CLEARANCE.iter().any(|w| s.after(w).is_some()) && DEPTH.iter().any(|w| s.after(w).is_some())
+}
+
+/// In a cycle whose numbers have words, one that has none.
+fn spare_number(s: &Statement) -> Option<f64> {
+    if !named(s) {
+        return None;
+    }
+    let mut before: Option<&str> = None;
+    let mut count = 0;
+    for (index, arg) in s.args.iter().enumerate() {
+        match arg {
+            Arg::Word(word) => (before, count) = (Some(word.as_str()), 0),
+            Arg::Number(v) => {
+                count += 1;
+                let pecks = before.is_some_and(|w| PECK.contains(&w));
+                let feed = feed_before(s, index + 1).is_some();
+                let kind =
+                    before.is_none_or(|w| FINER.contains(&w) || KINDS.iter().any(|(k, _)| k.contains(&w)));
+                if !feed && !pecks && (count > 1 || kind) {
+                    return Some(*v);
+                }
+            }
+            _ => {}
+        }
+    }
+    None
 }
 
 /// The word that stands behind a word.
@@ -361,6 +418,10 @@ fn bare_numbers(s: &Statement) -> Vec<f64> {
 /// The second of two numbers before the unit of feed at this place: depth, feed, unit.
 fn feed_before(s: &Statement, at: usize) -> Option<f64> {
     if !matches!(s.args.get(at)?, Arg::Word(w) if FEEDS.contains(&w.as_str())) {
+        return None;
+    }
+    // Where numbers have words, that of the unit is behind it.
+    if named(s) && matches!(s.args.get(at + 1), Some(Arg::Number(_))) {
         return None;
     }
     match (s.args.get(at.checked_sub(2)?)?, s.args.get(at.checked_sub(1)?)?) {

@@ -34,18 +34,30 @@ impl Planner<'_> {
     }
 
     pub(super) fn hole(&mut self, point: Point3, origin: Handle<Origin>) {
-        let Some(ready) = self.ready("a hole", None, origin) else { return };
         let Some(drilling) = &self.state.drilling else { return };
-        let mut asked = drilling.asked;
-        if drilling.open != Some(point.z) {
+        let (mut asked, open) = (drilling.asked, drilling.open);
+        if asked.own_feed || matches!(asked.cycle.kind, CycleKind::Tap { .. }) {
+            if !self.turns("a hole", origin) {
+                return;
+            }
+        } else {
+            let Some(ready) = self.ready("a hole", None, origin) else { return };
+            asked.cycle.feed = ready.feed;
+        }
+        if open != Some(point.z) {
             self.close_cycle(origin);
             let level = point.z + asked.return_to.unwrap_or(asked.cycle.clearance);
-            if self.state.height.is_none_or(|z| z < level) {
-                let over = self.state.at.unwrap_or(point);
-                self.rapid(Point3::new(over.x, over.y, level), origin);
-            }
-            if !asked.own_feed && !matches!(asked.cycle.kind, CycleKind::Tap { .. }) {
-                asked.cycle.feed = ready.feed;
+            match self.state.height {
+                Some(z) if z == level || z > level && asked.return_to.is_none() => {}
+                // From above, over the hole and down: it is where the tool comes back to.
+                Some(z) if z > level => {
+                    self.rapid(Point3::new(point.x, point.y, z), origin);
+                    self.rapid(Point3::new(point.x, point.y, level), origin);
+                }
+                _ => {
+                    let over = self.state.at.unwrap_or(point);
+                    self.rapid(Point3::new(over.x, over.y, level), origin);
+                }
             }
             self.emit(RecordKind::BeginCycle(Box::new(asked.cycle)), origin);
             self.state.drilling = Some(Drilling { asked, open: Some(point.z) });

@@ -198,6 +198,12 @@ impl Planner<'_> {
         Some(Ready { feed, clockwise: rpm_sense.1 })
     }
 
+    /// What a hole needs whose cycle has its own feed.
+    pub(super) fn turns(&mut self, what: &str, origin: Handle<Origin>) -> bool {
+        let tool = self.need_tool(what, None, origin);
+        self.need_spindle(what, origin).is_some() && tool.is_some()
+    }
+
     fn need_tool(
         &mut self,
         what: &str,

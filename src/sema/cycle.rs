@@ -29,6 +29,7 @@ impl Analyser<'_> {
         let feed = feed.unwrap_or(Feed::PerMinute(0.0));
         let cycle = Cycle { kind, depth, clearance, retract, peck, first_peck: None, dwell, feed };
         self.state.cycle = true;
+        self.state.cycle_feeds = own_feed || matches!(kind, CycleKind::Tap { .. });
         self.step(StepKind::BeginCycle(Box::new(DrillCycle { cycle, own_feed, return_to })));
     }
 

@@ -102,7 +102,9 @@ impl Analyser<'_> {
         if !rapid {
             self.needs_tool("a move at feed", at);
             self.needs_spindle("a move at feed", at);
-            self.needs_feed("a move at feed", at);
+            if !(self.state.cycle && self.state.cycle_feeds) {
+                self.needs_feed("a move at feed", at);
+            }
         }
         self.state.position = Some(p);
         self.state.at_from = false;

@@ -64,6 +64,8 @@ pub(super) struct State {
     pub rapid: bool,
     /// A drilling cycle is in force.
     pub cycle: bool,
+    /// It has a feed of its own, or a pitch.
+    pub cycle_feeds: bool,
     /// `CUTCOM` has had its warning.
     pub compensation_told: bool,
     /// `MULTAX/ ON`: points may have a tool axis.
@@ -106,6 +108,7 @@ impl Default for State {
             clearance: DEFAULT_CLEARANCE,
             rapid: false,
             cycle: false,
+            cycle_feeds: false,
             compensation_told: false,
             multi_axis: false,
             axis_told: false,

@@ -92,6 +92,16 @@ fn catia_full_circles_and_helices() {
     let (cl, codes) = read_as(&framed(full), Some(Producer::Catia), false);
     assert_eq!(codes, [""; 0]);
     assert!(near(circles(&cl)[0].to, [10.0, 0.0, 5.0]));
+    // As printed, start, centre and line are a little off each other; it is a full circle all the same.
+    for (x, end) in [("10.00001", "9.99999, 0.00002"), ("9.99999", "10.00001, -0.00002")] {
+        let arc = format!("(CIRCLE/ 0, 0, 5, 10.00001),ON,2,INTOF,(LINE/ 0, 0, 5, {end}, 5)");
+        let full = format!("INDIRV/ 0, 1, 0\nTLON,GOFWD/ {arc}");
+        let full = format!("GOTO/ {x}, 0, 5\n{full}\n{full}");
+        let (cl, codes) = read_as(&framed(&full), Some(Producer::Catia), false);
+        assert_eq!(codes, [""; 0]);
+        let start: f64 = x.parse().unwrap();
+        assert!(circles(&cl).iter().all(|c| c.to == Point3::new(start, 0.0, 5.0)));
+    }
     let helix = "HELICAL/ 0, 0, 5, 0, 1, 0, 0, 0, 1, 2, 10, 10, 0, 0";
     let (cl, codes) = read_as(&framed(helix), Some(Producer::Catia), false);
     // 5 mm down at 2 mm a turn: two whole turns, and the end is over the start.

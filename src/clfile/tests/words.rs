@@ -20,6 +20,8 @@ fn nothing_is_dropped_in_silence() {
         ("CYCLE/ DEEP, FEDTO, 20, MMPM, 120, RAPTO, 2", "E1006"),
         ("CYCLE/ DRILL, FEDTO, 20, MMPM, 120", "E1006"),
         ("CYCLE/ DRILL, 15, 200, MMPM", "E1006"),
+        ("CYCLE/ DRILL, FEDTO, 20, 7, MMPM, 120, RAPTO, 2", "E1006"),
+        ("CYCLE/ DRILL, 7, FEDTO, 20, MMPM, 120, RAPTO, 2", "E1006"),
         ("CYCLE/ DRILL, FEDTO, 20, MMPM, 120, RAPTO, 2, DWELL, 1E9", "E1006"),
         ("CIRCLE/ 0, 0, 5, 0, 0, 1, 10, TIMES, 1E9\nGOTO/ 10, 0, 5", "E1002"),
         ("CIRCLE/ 0, 0, 5, 0, 0, 1, 10", "E1002"),
@@ -146,6 +148,15 @@ fn cycles_in_their_spellings() {
     let nx = cycle("CYCLE/DRILL,DEEP,RAPTO,3,FEDTO,-25,STEP1,5,STEP2,3,STEP3,2,RTRCTO,AUTO,MMPM,150");
     assert_eq!((nx.kind, nx.peck, nx.first_peck), (CycleKind::Deep, Some(2.0), Some(5.0)));
     assert_eq!(nx.retract, RetractTo::Initial);
+    // Pecks of NX in a list: none of them is the feed.
+    let nx = cycle("CYCLE/DRILL,DEEP,RAPTO,3,FEDTO,-25,RTRCTO,AUTO,STEP,5,2,3,MMPM,150,DWELL,1");
+    assert_eq!((nx.peck, nx.first_peck, nx.feed), (Some(2.0), Some(5.0), Feed::PerMinute(150.0)));
+    let nx = cycle("CYCLE/DRILL,DEEP,RAPTO,3,FEDTO,-25,STEP,3,3,3,MMPM,150");
+    assert_eq!((nx.peck, nx.first_peck, nx.feed), (Some(3.0), None, Feed::PerMinute(150.0)));
+    let value_first = cycle("CYCLE/ DEEP, DEPTH, 20, STEP, 4, 100, MMPM, CLEAR, 2");
+    assert_eq!((value_first.peck, value_first.feed), (Some(4.0), Feed::PerMinute(100.0)));
+    let catia = cycle("CYCLE/ DEEPHL, 15, INCR, 3, 200, MMPM, 2");
+    assert_eq!((catia.peck, catia.clearance, catia.feed), (Some(3.0), 2.0, Feed::PerMinute(200.0)));
     let face = cycle("CYCLE/ FACE, FEDTO, 2, MMPM, 50, RAPTO, 2, DWELL, 1.5");
     assert_eq!((face.kind, face.dwell), (CycleKind::Dwell, Some(1.5)));
     let tap = cycle("CYCLE/ TAP, FEDTO, 12, MMPR, 1.25, RAPTO, 5");
@@ -189,6 +200,21 @@ fn a_cycle_right_after_the_tool_change_drills_its_first_point() {
     let text = "LOADTL/1\nSPINDL/900\nFEDRAT/100\nCYCLE/DRILL,FEDTO,5,RAPTO,2\nGOTO/1,1,0\nCYCLE/OFF\nFINI\n";
     let (cl, codes) = read(text);
     assert_eq!((kinds(&cl).as_str(), codes.as_slice()), ("RBHE", [""; 0].as_slice()));
+}
+
+#[test]
+fn a_cycle_that_begins_above_its_return_level_begins_there() {
+    let after = |return_to: &str| {
+        let cycle = format!("RAPID\nGOTO/ 0, 0, 50\nCYCLE/ DRILL, FEDTO, 5, RAPTO, 2, RTRCTO, {return_to}");
+        let (cl, codes) = read(&framed(&format!("{cycle}\nGOTO/ 1, 2, 3\nGOTO/ 4, 5, -3\nCYCLE/ OFF")));
+        assert_eq!(codes, [""; 0]);
+        let rapids =
+            cl.records.iter().filter_map(|r| if let RecordKind::Rapid(p) = r.kind { Some(p) } else { None });
+        rapids.skip(2).map(|p| [p.x, p.y, p.z]).collect::<Vec<_>>()
+    };
+    // Across first, then down; each hole has the level above its own point.
+    assert_eq!(after("20"), [[1.0, 2.0, 50.0], [1.0, 2.0, 23.0], [4.0, 5.0, 23.0], [4.0, 5.0, 17.0]]);
+    assert_eq!(after("AUTO"), [[0.0; 3]; 0]);
 }
 
 #[test]
