@@ -225,6 +225,22 @@ fn steep_nets_are_finished_in_planes() {
     }
 }
 
+/// Bent passes of a ball that does not fit: at a border where it is lifted it touches elsewhere, perhaps on what is cut.
+#[test]
+fn bent_passes_of_a_large_ball_leave_nothing_out_before_a_border() {
+    let waves = [
+        [-12, 16, -16, -4, -13, 11, 8, 10, 4, -7, -14, 11, -19, 4],
+        [-6, 3, 4, -12, -8, -18, -15, -12, -5, 12, -7, 5, -19, 9],
+    ];
+    for heights in waves {
+        let pole = |k: usize| [27.0 * (k / 7) as f64, 2.5 * (k % 7) as f64, f64::from(heights[k]) / 10.0];
+        let net = Net { rows: 2, columns: 7, poles: (0..14).map(pole).collect() };
+        let build = built_by("BALL, 16", &format!("N1 = {}", net.text()), "ISOCSP, CUSP, 0.05");
+        let proof = outcome(&build).unwrap_or_else(|codes| panic!("{heights:?}: {codes:?}"));
+        assert!(proof.into.value <= 1e-6 && proof.out.value <= 0.02 + 1e-6, "{heights:?}");
+    }
+}
+
 /// The ball's rolling over a straight border of a ruled net takes long moves beside that border.
 #[test]
 fn long_moves_beside_a_border_are_proven() {

@@ -115,6 +115,30 @@ pub struct Finish {
     pub leave: f64,
     /// Largest height of the cusps between passes, mm, where that was asked for.
     pub cusp: Option<f64>,
+    /// How its passes follow one another, where they bend.
+    pub march: Option<March>,
+}
+
+/// How passes that bend follow one another over a surface. It is tried out; a plan that is made again keeps it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct March {
+    /// The parameter that passes run along (0: u).
+    pub axis: usize,
+    /// Where they begin.
+    pub start: Start,
+    /// Whether they lie closer than they must, and have more room to the side.
+    pub roomy: bool,
+}
+
+/// Where passes begin that follow one another.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Start {
+    /// On the border where the other parameter is least.
+    First,
+    /// On the one where it is most.
+    Last,
+    /// In the middle, to both sides.
+    Middle,
 }
 
 /// A blank that is cleared in levels down to a surface.

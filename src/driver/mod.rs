@@ -305,7 +305,7 @@ fn closer(
     keep: Keep<'_>,
 ) -> (Cl, targets::Made) {
     let mut made = targets::make(&cl, ready, sources, keep);
-    let mut closer = Closer::default();
+    let mut closer = Closer::after(&cl);
     for round in 1..plan::closer::ROUNDS {
         if made.short.is_empty() {
             break;

@@ -3,6 +3,9 @@
 //! Passes are spread on their exact tracks; the blocks that express them deviate, and ridges are measured at columns only.
 //! What that takes is a constant margin nearly everywhere; where it is not enough, the plan is made again with these places.
 
+use std::collections::BTreeMap;
+
+use crate::cl::{Cl, March, Operation};
 use crate::geom::Point3;
 
 /// Beyond this many times a place's reach nothing is changed; in between the share grows evenly.
@@ -25,9 +28,22 @@ pub struct Place {
 #[derive(Debug, Clone, Default)]
 pub struct Closer {
     places: Vec<(usize, Place)>,
+    marches: BTreeMap<usize, March>,
 }
 
 impl Closer {
+    /// Nothing asked for yet; what the plan so far tried out is kept.
+    #[must_use]
+    pub fn after(cl: &Cl) -> Closer {
+        let march = |(k, operation): (usize, &Operation)| Some((k, operation.guard.surface.as_ref()?.march?));
+        Closer { places: Vec::new(), marches: cl.operations.iter().enumerate().filter_map(march).collect() }
+    }
+
+    /// How the bent passes of an operation follow one another, where that is known.
+    pub(super) fn march(&self, operation: usize) -> Option<March> {
+        self.marches.get(&operation).copied()
+    }
+
     /// Asks for lower cusps in an operation (by its index) at some places: `share` counts on top of what was asked before.
     /// `everywhere`: by the same share all over the operation's surface, too.
     pub fn add(&mut self, short: &[(usize, Place)], everywhere: bool) {

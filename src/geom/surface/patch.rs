@@ -91,13 +91,16 @@ pub struct Patch {
     degree: [usize; 2],
     poles: Vec<Homogeneous>,
     rational: bool,
-    /// Coefficients of uⁱ vʲ, row by row, of a patch of a net: points of these are asked for by the million. None for parts
-    /// of patches, and where the degree is so high that powers lose too many digits.
+    /// Coefficients of (u - c)ⁱ (v - c)ʲ, row by row, of a patch of a net: points of these are asked for by the million;
+    /// c is 0 for a bicubic patch, [`CENTRE`] for others. None for parts of patches, and where the degree is so high that
+    /// powers lose too many digits.
     powers: Vec<f64x4>,
 }
 
-/// Degrees up to which powers are used: they lose three digits at most.
-const FEW: usize = 5;
+/// Degrees up to which powers are used: they lose three digits at most (about the centre a factor of 2ⁿ, about 0 of 3ⁿ).
+const FEW: usize = 8;
+/// The place about which powers are taken where the patch is not bicubic.
+const CENTRE: f64 = 0.5;
 
 impl Patch {
     /// A patch from its poles, row by row, and their weights (1 when `None`).
@@ -123,7 +126,8 @@ impl Patch {
             Homogeneous::new(p.x * w, p.y * w, p.z * w, w)
         };
         let poles: Vec<Homogeneous> = poles.iter().enumerate().map(lift).collect();
-        let powers = if rows.max(columns) <= FEW + 1 { powers(&poles, columns) } else { Vec::new() };
+        let about = if rows == 4 && columns == 4 { 0.0 } else { CENTRE };
+        let powers = if rows.max(columns) <= FEW + 1 { powers(&poles, columns, about) } else { Vec::new() };
         Some(Patch { degree: [rows - 1, columns - 1], poles, rational, powers })
     }
     /// Degree in u and v.
@@ -192,7 +196,7 @@ impl Patch {
             return bicubic(powers, u, v).map(homogeneous);
         }
         if !self.powers.is_empty() {
-            return horner(&self.powers, n + 1, u, v).map(homogeneous);
+            return horner(&self.powers, n + 1, u - CENTRE, v - CENTRE).map(homogeneous);
         }
         let (b, c) = (bernstein_jet(m, u), bernstein_jet(n, v));
         let mut out = [Homogeneous::zeros(); 6];
@@ -281,27 +285,34 @@ fn bernstein(n: usize, t: f64) -> Basis {
     b
 }
 
-/// A patch in powers of u and v.
-fn powers(poles: &[Homogeneous], columns: usize) -> Vec<f64x4> {
+/// A patch in powers of u and v about a place.
+fn powers(poles: &[Homogeneous], columns: usize, about: f64) -> Vec<f64x4> {
     let mut out = poles.to_vec();
     let rows = poles.len() / columns;
-    (0..rows).for_each(|i| line_in_powers(&mut out, i * columns, 1, columns - 1));
-    (0..columns).for_each(|j| line_in_powers(&mut out, j, columns, rows - 1));
+    (0..rows).for_each(|i| line_in_powers(&mut out, i * columns, 1, columns - 1, about));
+    (0..columns).for_each(|j| line_in_powers(&mut out, j, columns, rows - 1, about));
     out.iter().map(|h| f64x4::from([h.x, h.y, h.z, h.w])).collect()
 }
 
-/// One line of poles (start, stride, degree): the k-th coefficient is the k-th difference, (n over k) times.
-fn line_in_powers(poles: &mut [Homogeneous], start: usize, stride: usize, degree: usize) {
+/// One line of poles (start, stride, degree): the k-th coefficient is the k-th difference at the place, (n over k) times.
+fn line_in_powers(poles: &mut [Homogeneous], start: usize, stride: usize, degree: usize, about: f64) {
     let mut choose = 1.0;
-    for k in 1..=degree {
-        for i in (k..=degree).rev() {
-            let before = poles[start + (i - 1) * stride];
-            poles[start + i * stride] -= before;
-        }
+    let mut differences = [Homogeneous::zeros(); MAX_DEGREE + 1];
+    for (k, value) in differences.iter_mut().enumerate().take(degree + 1) {
+        *value = poles[start + k * stride];
     }
-    for k in 1..=degree {
-        choose *= crate::math::count(degree + 1 - k) / crate::math::count(k);
-        poles[start + k * stride] *= choose;
+    for k in 0..=degree {
+        let mut line = differences;
+        for left in (1..=degree - k).rev() {
+            for i in 0..left {
+                line[i] = line[i] * (1.0 - about) + line[i + 1] * about;
+            }
+        }
+        poles[start + k * stride] = line[0] * choose;
+        for i in 0..degree - k {
+            differences[i] = differences[i + 1] - differences[i];
+        }
+        choose *= crate::math::count(degree - k) / crate::math::count(k + 1);
     }
 }
 
@@ -432,7 +443,9 @@ mod tests {
 
     #[test]
     fn powers_and_bernstein_polynomials_agree() {
-        for (rows, columns) in [(2, 2), (2, 6), (3, 5), (4, 4), (6, 3), (6, 6), (7, 4)] {
+        for (rows, columns) in
+            [(2, 2), (2, 6), (3, 5), (4, 4), (6, 3), (6, 6), (7, 4), (8, 3), (9, 9), (10, 2)]
+        {
             let at = |k: usize| crate::math::count(k * k % 7) - crate::math::count(k % 3);
             let poles: Vec<Point3> = (0..rows * columns)
                 .map(|k| {

@@ -8,6 +8,7 @@ use super::march;
 use super::outline::{self, Rim};
 use super::ridge::Target;
 use super::spread::{self, COLUMNS, Line};
+use crate::cl::March;
 use crate::geom::surface::{Contact, Cutter, Guide, SurfaceTree, Track, drop_ball};
 use crate::geom::{Point2, Point3, Vec3};
 use crate::ir::{Along, Spacing, Surface};
@@ -168,6 +169,14 @@ impl Family {
         }
     }
 
+    /// Whether the ball touches elsewhere than where it was set down on a parameter line.
+    pub(super) fn is_lifted(&self, contact: &Contact, (across, along): (f64, f64)) -> bool {
+        const ELSEWHERE: f64 = 1e-6;
+        let Kind::Parameter(axis) = self.kind else { return false };
+        let [u, v] = if axis == 0 { [along, across] } else { [across, along] };
+        (self.tree.net().jet(u, v).p - contact.foot.point).norm() > ELSEWHERE
+    }
+
     fn parameter_track(&self, axis: usize, value: f64, range: (f64, f64)) -> Track {
         self.track(Guide::Parameter { axis, value, range })
     }
@@ -313,10 +322,15 @@ impl Family {
     }
 
     /// The passes as tracks, each with its room, in chains: one pass of a chain lies beside the next.
-    fn chains(&self, surface: &Surface, target: Target) -> Result<Vec<Chain>, String> {
+    fn chains(
+        &self,
+        surface: &Surface,
+        target: Target,
+        march: &mut Option<March>,
+    ) -> Result<Vec<Chain>, String> {
         if matches!(surface.along, Along::IsoCusp | Along::Const) {
             let both = [self.along_axis(0), self.along_axis(1)];
-            let (family, spread) = march::shortest(both, target, surface.along == Along::Const)?;
+            let (family, spread) = march::shortest(both, target, surface.along == Along::Const, march)?;
             let rooms = spread.rooms(target);
             let runs: Vec<Vec<(usize, usize)>> =
                 spread.lines.iter().map(|line| runs(line, |at| !at.is_nan())).collect();
@@ -357,14 +371,15 @@ impl Family {
         self.track(Guide::Curve(Arc::new((first..=last).map(place).collect())))
     }
 
-    /// All passes and the ways between them, in the order they are cut.
-    pub(super) fn legs(&self, surface: &Surface) -> Result<Vec<Leg>, String> {
+    /// All passes and the ways between them, in the order they are cut; those that bend follow one another as known, or as
+    /// is found to be best.
+    pub(super) fn legs(&self, surface: &Surface, march: &mut Option<March>) -> Result<Vec<Leg>, String> {
         let target = match surface.spacing {
             Spacing::Cusp(h) => Target::Cusp(h),
             Spacing::Step(s) => Target::Step(s),
         };
         let mut legs: Vec<Leg> = Vec::new();
-        for chain in self.chains(surface, target)? {
+        for chain in self.chains(surface, target, march)? {
             self.chain(chain, surface.zigzag, &mut legs);
             if let Some(end) = legs.last_mut() {
                 end.last = true;

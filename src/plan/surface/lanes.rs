@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use super::apart::Apart;
 use super::bends::{self, Making, Passes};
 use super::family::{LINK, Leg, runs};
-use super::outline::{self, crossings};
+use super::outline::{self, Outline};
 use super::scale::Scale;
 use crate::geom::surface::{Cutter, Guide, Rim, SurfaceTree, Track};
 use crate::geom::{Point2, Point3, Vec2};
@@ -274,14 +274,13 @@ impl Lanes {
 
     /// What is found for a width and the lines over it.
     fn over_lines<T>(&self, axis: usize, find: &Finder<'_, T>) -> Result<T, String> {
-        let outline = self.rim.outline(self.tree.net(), EDGE);
-        let across = outline.iter().map(|p| p[1 - axis]);
-        let (low, high) = across.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
+        let outline = Outline::new(axis, self.rim.outline(self.tree.net(), EDGE));
+        let (low, high) = outline.width();
         let inset = INSET * (high - low);
         let (low, high) = (low + inset, high - inset);
         let line = |beyond: f64| {
             let across = low + beyond;
-            let (a, b) = crossings(&outline, axis, across)?;
+            let (a, b) = outline.crossings(across)?;
             let place =
                 |along: f64| if axis == 0 { Point2::new(along, across) } else { Point2::new(across, along) };
             self.held(place(a), place(b))

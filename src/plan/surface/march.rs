@@ -7,12 +7,15 @@
 use rayon::prelude::*;
 
 use super::family::Family;
-use super::ridge::{Row, Target, border, gap};
+use super::ridge::{Row, Target, border, gap, hidden};
 use super::spread::{COLUMNS, Ends, Line, MOST, SMOOTH, Spread, measure, smooth};
+use crate::cl::{March, Start};
 
 /// Rounds of measuring and moving one pass.
 const ROUNDS: u32 = 30;
-/// Rounds that move each column by itself; the others move the pass as a whole.
+/// The same where a way is tried out.
+const TRIAL_ROUNDS: u32 = 6;
+/// Rounds after which a pass only comes closer.
 const FREE: u32 = 10;
 /// A pass is near enough when it uses so much wherever it may.
 const NEAR: f64 = 0.995;
@@ -26,50 +29,52 @@ const SPENT: f64 = 0.002;
 /// Ways are tried out with about so many passes.
 const TRIAL: f64 = 48.0;
 
-/// Where marching begins.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Start {
-    First,
-    Last,
-    Middle,
-}
-
 /// The shortest way over the surface of passes that lie as far apart as the target allows; `even`: everywhere at the
-/// same distance. The families are those along u and along v.
+/// same distance. The families are those along u and along v. What is not known is tried out.
 pub(super) fn shortest(
     families: [Family; 2],
     target: Target,
     even: bool,
+    known: &mut Option<March>,
 ) -> Result<(Family, Spread), String> {
+    let march = match *known {
+        Some(march) => march,
+        None => tried(&families, target, even)?,
+    };
+    *known = Some(march);
     let [along_u, along_v] = families;
-    let ways: Vec<(bool, Start)> = [false, true]
-        .into_iter()
-        .flat_map(|v| [Start::First, Start::Last, Start::Middle].map(|s| (v, s)))
-        .collect();
-    let tried: Vec<Result<Trial, String>> = ways
+    let family = if march.axis == 0 { along_u } else { along_v };
+    let bent = BENT[usize::from(march.roomy)];
+    let spread = spread(&family, (target, bent), even, march.start, ROUNDS)?;
+    Ok((family, Spread { aside: bent.1, ..spread }))
+}
+
+/// The shortest way, told from passes that lie farther apart.
+fn tried(families: &[Family; 2], target: Target, even: bool) -> Result<March, String> {
+    let starts = [Start::First, Start::Last, Start::Middle];
+    let ways: Vec<(usize, Start)> =
+        (0..families.len()).flat_map(|axis| starts.map(|start| (axis, start))).collect();
+    let trials: Vec<Result<Trial, String>> = ways
         .par_iter()
-        .map(|(v, start)| {
-            let family = if *v { &along_v } else { &along_u };
+        .map(|(axis, start)| {
+            let family = &families[*axis];
             let factor = (target.passes(family) / TRIAL).max(1.0);
-            let spread = spread(family, (target.coarser(factor), BENT[0]), even, *start)?;
+            let spread = spread(family, (target.coarser(factor), BENT[0]), even, *start, TRIAL_ROUNDS)?;
             Ok(Trial::new(family, &spread, factor))
         })
         .collect();
-    let mut best: Option<(Trial, (bool, Start))> = None;
-    for (way, trial) in ways.iter().zip(tried) {
+    let mut best: Option<(Trial, (usize, Start))> = None;
+    for (way, trial) in ways.iter().zip(trials) {
         let trial = trial?;
         // Ways of the same length: the first of them.
         if best.as_ref().is_none_or(|b| trial.length < b.0.length * (1.0 - 1e-6)) {
             best = Some((trial, *way));
         }
     }
-    let (v, start) = best.as_ref().map_or((false, Start::First), |b| b.1);
-    let family = if v { along_v } else { along_u };
+    let (axis, start) = best.as_ref().map_or((0, Start::First), |b| b.1);
     let roomy =
         matches!(target, Target::Cusp(_)) && best.is_some_and(|b| b.0.blocks[1] < WORTH * b.0.blocks[0]);
-    let bent = BENT[usize::from(roomy)];
-    let spread = spread(&family, (target, bent), even, start)?;
-    Ok((family, Spread { aside: bent.1, ..spread }))
+    Ok(March { axis, start, roomy })
 }
 
 fn spread(
@@ -77,11 +82,12 @@ fn spread(
     (target, (part, _)): (Target, (f64, f64)),
     even: bool,
     start: Start,
+    rounds: u32,
 ) -> Result<Spread, String> {
     match target {
-        Target::Cusp(h) if even => constant(family, h * part, start),
-        Target::Cusp(h) => marched(family, Target::Cusp(h * part), start),
-        Target::Step(_) => marched(family, target, start),
+        Target::Cusp(h) if even => constant(family, h * part, start, rounds),
+        Target::Cusp(h) => marched(family, Target::Cusp(h * part), start, rounds),
+        Target::Step(_) => marched(family, target, start, rounds),
     }
 }
 
@@ -108,7 +114,7 @@ impl Trial {
                     after.centre - before.centre,
                     (after.centre - own.centre) - (own.centre - before.centre),
                 );
-                if !apart.is_finite() {
+                if !apart.is_finite() || *apart <= 0.0 {
                     continue;
                 }
                 let apart = apart / factor;
@@ -126,13 +132,13 @@ impl Trial {
 }
 
 /// The largest constant distance whose ridges are nowhere higher than asked for.
-fn constant(family: &Family, h: f64, start: Start) -> Result<Spread, String> {
+fn constant(family: &Family, h: f64, start: Start, rounds: u32) -> Result<Spread, String> {
     const TRIES: u32 = 8;
     const SPARE: f64 = 0.98;
     let mut step = 2.0 * (h * (2.0 * family.radius() - h)).max(0.0).sqrt();
     let mut found = None;
     for _ in 0..TRIES {
-        let passes = marched(family, Target::Step(step), start)?;
+        let passes = marched(family, Target::Step(step), start, rounds)?;
         let gaps = measure(family, Target::Cusp(h), &passes.lines, (family.across(), Ends::Inside));
         let worst = gaps.iter().flatten().map(|g| g.0).fold(0.0, f64::max);
         if worst <= 1.0 + SPENT {
@@ -146,9 +152,9 @@ fn constant(family: &Family, h: f64, start: Start) -> Result<Spread, String> {
     found.ok_or_else(|| "no constant distance of passes keeps the height of cusps".into())
 }
 
-fn marched(family: &Family, target: Target, start: Start) -> Result<Spread, String> {
+fn marched(family: &Family, target: Target, start: Start, rounds: u32) -> Result<Spread, String> {
     let edges = family.across();
-    let march = March { family, target };
+    let march = Marching { family, target, rounds };
     let lines = match start {
         Start::First => march.all(march.begun(edges.0, edges.1), edges.1)?,
         Start::Last => {
@@ -169,9 +175,11 @@ fn marched(family: &Family, target: Target, start: Start) -> Result<Spread, Stri
     Ok(Spread { lines, gaps, aside: BENT[0].1 })
 }
 
-struct March<'a> {
+struct Marching<'a> {
     family: &'a Family,
     target: Target,
+    /// Rounds of measuring and moving one pass, at most.
+    rounds: u32,
 }
 
 /// The last pass so far.
@@ -182,7 +190,7 @@ struct Front {
     step: Line,
 }
 
-impl March<'_> {
+impl Marching<'_> {
     /// A first distance of passes, in *across*.
     fn guess(&self) -> f64 {
         let (a, b) = self.family.across();
@@ -218,7 +226,12 @@ impl March<'_> {
     /// The pass after this one; `None` where nothing stays up to the border.
     fn next(&self, front: &Front, edge: f64) -> Option<Front> {
         let rest = border(self.family, self.target, &front.row, &front.line, edge);
-        let left = |k: usize| rest.get(k).is_some_and(|r| r.0 > 1.0);
+        let hidden = match rest.iter().all(|r| r.0 > 1.0) {
+            true => Vec::new(),
+            false => hidden(self.family, self.target, &front.row, &front.line, edge),
+        };
+        let left =
+            |k: usize| rest.get(k).is_some_and(|r| r.0 > 1.0) || hidden.get(k).copied().unwrap_or(false);
         let open: [bool; COLUMNS] = core::array::from_fn(|k| {
             // One column more on either side: the pass covers what is left to its very end.
             let near = k.checked_sub(1).is_some_and(left) || left(k) || left(k + 1);
@@ -251,12 +264,16 @@ impl March<'_> {
             let idle = idle.filter(|i| *i).count();
             round += 1;
             if worst <= 1.0 + SPENT && round > 1 && (idle == 0 || round > 4)
-                || round >= ROUNDS
+                || round >= self.rounds
                 || worst.is_nan()
             {
                 return Front { line, row, step };
             }
-            let needs = if round < FREE { smooth(&used, SMOOTH) } else { vec![worst.max(1.0); COLUMNS] };
+            // What does not come to rest is moved in wider and wider parts, at last as a whole.
+            let mut needs = smooth(&used, (SMOOTH << (round / 3)).min(COLUMNS));
+            if round >= FREE {
+                needs.iter_mut().for_each(|n| *n = n.max(1.0));
+            }
             for k in (0..COLUMNS).filter(|k| open[*k]) {
                 // What lies on the border cannot go on, and comes back from there.
                 let on_border = line[k] == edge;

@@ -59,20 +59,26 @@ impl Planner<'_> {
         if surface.rough {
             self.material(surface, &name, &tree, origin);
         }
-        let shares = self.closer.of(self.cl.operations.len());
+        let operation = self.cl.operations.len();
+        let shares = self.closer.of(operation);
+        let mut march = self.closer.march(operation);
         let (legs, band) = match cutter.is_ball() {
             false => {
                 let (hull, band) = lanes::within(&cutter, surface.leave, surface.band);
                 (lanes::legs(surface, &tree, (hull, &cutter), &shares), band)
             }
-            true => (Family::new(surface, Arc::clone(&tree), radius, shares).legs(surface), surface.band),
+            true => {
+                let family = Family::new(surface, Arc::clone(&tree), radius, shares);
+                (family.legs(surface, &mut march), surface.band)
+            }
         };
         let legs = match legs {
             _ if tree.is_exhausted() => return self.too_uneven(surface.net, origin),
             Ok(legs) => legs,
             Err(why) => return self.no_passes(&why, origin),
         };
-        let finish = Finish { tree, radius, cutter, leave: surface.leave, cusp: cusp(surface.spacing) };
+        let finish =
+            Finish { tree, radius, cutter, leave: surface.leave, cusp: cusp(surface.spacing), march };
         self.passes((surface, band), &name, finish, &legs, origin);
     }
 

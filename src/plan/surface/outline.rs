@@ -13,7 +13,7 @@ pub(super) struct Rim {
     pub axis: usize,
     pub places: Vec<RimPlace>,
     /// The centres in plan: the outline of the offset surface.
-    outline: Vec<Point2>,
+    outline: Outline,
 }
 
 /// A place on an edge, with the centre of the ball that touches there.
@@ -41,24 +41,23 @@ impl Rim {
                 }
             }
         }
-        let outline = places.iter().map(|p| Point2::new(p.centre.x, p.centre.y)).collect();
-        Rim { axis, places, outline }
+        let centres = places.iter().map(|p| Point2::new(p.centre.x, p.centre.y)).collect();
+        Rim { axis, places, outline: Outline::new(axis, centres) }
     }
 
     /// Range of *across*.
     pub(super) fn width(&self) -> (f64, f64) {
-        let across = self.outline.iter().map(|p| p[1 - self.axis]);
-        across.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)))
+        self.outline.width()
     }
 
     /// First and last crossing of the pass at `across`.
     pub(super) fn crossings(&self, across: f64) -> Option<(f64, f64)> {
-        crossings(&self.outline, self.axis, across)
+        self.outline.crossings(across)
     }
 
     /// The stretches of the pass at `across` on which the ball touches inside of the edges, in rising order.
     pub(super) fn inside(&self, across: f64) -> Vec<(f64, f64)> {
-        inside(&self.outline, self.axis, across)
+        self.outline.inside(across)
     }
 
     /// A place in plan.
@@ -67,42 +66,88 @@ impl Rim {
     }
 }
 
-/// Where a line along `axis` crosses a closed outline, in rising order; with the side to which the outline goes on.
-fn crossed(outline: &[Point2], axis: usize, across: f64) -> Vec<(f64, i32)> {
-    let mut found = Vec::new();
-    for (i, p) in outline.iter().enumerate() {
-        let q = outline[(i + 1) % outline.len()];
-        let (a, b) = (p[1 - axis] - across, q[1 - axis] - across);
-        // A vertex on the line belongs to the side above it.
-        if (a < 0.0) != (b < 0.0) {
-            found.push((p[axis] + (q[axis] - p[axis]) * (a / (a - b)), if a < b { 1 } else { -1 }));
-        }
-    }
-    found.sort_by(|a, b| a.0.total_cmp(&b.0));
-    found
+/// A closed outline that lines along an axis (0: x) cross.
+#[derive(Debug)]
+pub(super) struct Outline {
+    axis: usize,
+    points: Vec<Point2>,
+    width: (f64, f64),
+    /// The edges, by the number of their first point, that have part of each of equally wide strips *across*: so that a
+    /// line looks at few.
+    strips: Vec<Vec<usize>>,
 }
 
-/// First and last crossing of a closed outline with a line along `axis`.
-pub(super) fn crossings(outline: &[Point2], axis: usize, across: f64) -> Option<(f64, f64)> {
-    let found = crossed(outline, axis, across);
-    let (first, last) = (found.first()?.0, found.last()?.0);
-    (first < last).then_some((first, last))
-}
-
-/// The stretches of a line along `axis` that lie inside a closed outline, in rising order.
-fn inside(outline: &[Point2], axis: usize, across: f64) -> Vec<(f64, f64)> {
-    let mut out: Vec<(f64, f64)> = Vec::new();
-    let (mut winding, mut start) = (0, 0.0);
-    for (at, side) in crossed(outline, axis, across) {
-        let before = winding;
-        winding += side;
-        if before == 0 {
-            start = at;
-        } else if winding == 0 && at > start {
-            out.push((start, at));
+impl Outline {
+    /// The outline through these points.
+    pub(super) fn new(axis: usize, points: Vec<Point2>) -> Outline {
+        let across = points.iter().map(|p| p[1 - axis]);
+        let width = across.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
+        let strips = vec![Vec::new(); points.len().max(1)];
+        let mut outline = Outline { axis, points, width, strips };
+        for i in 0..outline.points.len() {
+            let (p, q) = outline.edge(i);
+            let (a, b) = (outline.strip(p[1 - axis]), outline.strip(q[1 - axis]));
+            for strip in &mut outline.strips[a.min(b)..=a.max(b)] {
+                strip.push(i);
+            }
         }
+        outline
     }
-    out
+
+    fn edge(&self, i: usize) -> (Point2, Point2) {
+        (self.points[i], self.points[(i + 1) % self.points.len()])
+    }
+
+    /// The strip in which a place *across* lies; it never falls as the place rises.
+    fn strip(&self, across: f64) -> usize {
+        let share = (across - self.width.0) / (self.width.1 - self.width.0);
+        // Floats saturate, and what is no number is nought.
+        ((share * count(self.strips.len())) as usize).min(self.strips.len() - 1)
+    }
+
+    /// Range of *across*.
+    pub(super) fn width(&self) -> (f64, f64) {
+        self.width
+    }
+
+    /// Where a line crosses, in rising order; with the side to which the outline goes on.
+    fn crossed(&self, across: f64) -> Vec<(f64, i32)> {
+        let mut found = Vec::new();
+        for &i in &self.strips[self.strip(across)] {
+            let (p, q) = self.edge(i);
+            let (a, b) = (p[1 - self.axis] - across, q[1 - self.axis] - across);
+            // A vertex on the line belongs to the side above it.
+            if (a < 0.0) != (b < 0.0) {
+                let along = p[self.axis] + (q[self.axis] - p[self.axis]) * (a / (a - b));
+                found.push((along, if a < b { 1 } else { -1 }));
+            }
+        }
+        found.sort_by(|a, b| a.0.total_cmp(&b.0));
+        found
+    }
+
+    /// First and last crossing with a line.
+    pub(super) fn crossings(&self, across: f64) -> Option<(f64, f64)> {
+        let found = self.crossed(across);
+        let (first, last) = (found.first()?.0, found.last()?.0);
+        (first < last).then_some((first, last))
+    }
+
+    /// The stretches of a line that lie inside, in rising order.
+    fn inside(&self, across: f64) -> Vec<(f64, f64)> {
+        let mut out: Vec<(f64, f64)> = Vec::new();
+        let (mut winding, mut start) = (0, 0.0);
+        for (at, side) in self.crossed(across) {
+            let before = winding;
+            winding += side;
+            if before == 0 {
+                start = at;
+            } else if winding == 0 && at > start {
+                out.push((start, at));
+            }
+        }
+        out
+    }
 }
 
 /// Halvings that find the border of what holds.
@@ -179,21 +224,44 @@ pub(super) fn chained(lines: &[Vec<(f64, f64)>]) -> Vec<Vec<(usize, usize)>> {
 mod tests {
     use super::*;
 
-    fn crescent() -> Vec<Point2> {
-        [(0.0, 0.0), (10.0, 0.0), (10.0, 4.0), (5.0, 1.0), (0.0, 4.0)]
-            .map(|(x, y)| Point2::new(x, y))
-            .to_vec()
+    fn crescent() -> Outline {
+        let points = [(0.0, 0.0), (10.0, 0.0), (10.0, 4.0), (5.0, 1.0), (0.0, 4.0)];
+        Outline::new(0, points.map(|(x, y)| Point2::new(x, y)).to_vec())
     }
 
     #[test]
     fn a_line_over_a_hollow_outline_runs_in_two_stretches() {
         let outline = crescent();
-        assert_eq!(inside(&outline, 0, 0.5), [(0.0, 10.0)]);
-        let two = inside(&outline, 0, 2.5);
+        assert_eq!(outline.inside(0.5), [(0.0, 10.0)]);
+        let two = outline.inside(2.5);
         assert_eq!(two.len(), 2, "{two:?}");
         assert!((two[0].1 - 2.5).abs() < 1e-12 && (two[1].0 - 7.5).abs() < 1e-12, "{two:?}");
-        assert_eq!(crossings(&outline, 0, 2.5), Some((0.0, 10.0)));
-        assert!(inside(&outline, 0, 5.0).is_empty());
+        assert_eq!(outline.crossings(2.5), Some((0.0, 10.0)));
+        assert!(outline.inside(5.0).is_empty());
+    }
+
+    #[test]
+    fn lines_find_what_crosses_them_among_many_edges() {
+        let corner = |i: u32| {
+            let turn = f64::from(i) * std::f64::consts::TAU / 400.0;
+            let radius = 10.0 + 3.0 * libm::sin(7.0 * turn);
+            Point2::new(radius * libm::cos(turn), 2.0 * radius * libm::sin(turn))
+        };
+        let points: Vec<Point2> = (0..400).map(corner).collect();
+        for axis in [0, 1] {
+            let outline = Outline::new(axis, points.clone());
+            let (low, high) = outline.width();
+            for k in 0..=100 {
+                let across = low + (high - low) * f64::from(k) / 100.0;
+                let crosses = |i: &usize| {
+                    let (p, q) = outline.edge(*i);
+                    (p[1 - axis] < across) != (q[1 - axis] < across)
+                };
+                let all = (0..points.len()).filter(crosses).count();
+                assert_eq!(outline.crossed(across).len(), all, "{axis} {across}");
+            }
+            assert!(outline.crossed(low - 1.0).is_empty() && outline.crossed(high + 1.0).is_empty());
+        }
     }
 
     #[test]

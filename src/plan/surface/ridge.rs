@@ -250,6 +250,33 @@ pub(super) fn border(family: &Family, target: Target, row: &Row, line: &Line, ed
     vec![(worst.fold(0.0, f64::max), 2.0 * (across - edge).abs()); line.len()]
 }
 
+/// Whether, at every column, something stays between a pass and the border that the border itself does not tell: where
+/// the ball cannot reach the border it touches elsewhere, perhaps on what the pass has cut already.
+pub(super) fn hidden(family: &Family, target: Target, row: &Row, line: &Line, edge: f64) -> Vec<bool> {
+    const PARTS: usize = 8;
+    /// So much of half a distance stays nowhere but where passes are missing.
+    const MISSING: f64 = 2.0;
+    let half = Half { family, target, row };
+    let hidden = |k: usize| {
+        let (across, own) = (line.get(k).copied().filter(|a| !a.is_nan())?, row.centre(k)?);
+        let along = place(family.along(across)?, k);
+        let on_border = family.contact(edge, along, None)?;
+        if !family.is_lifted(&on_border, (edge, along)) {
+            return None;
+        }
+        let mut hint = Some(on_border);
+        let stays = |part: usize| {
+            let at = across + (edge - across) * count(part) / count(PARTS);
+            let contact = family.contact(at, along, hint.as_ref())?;
+            hint = Some(contact);
+            let apart = (contact.centre - own).norm();
+            Some(half.used((contact.foot.point, contact.normal), k, apart) > MISSING)
+        };
+        Some((1..PARTS).rev().filter_map(stays).any(|s| s))
+    };
+    (0..line.len()).into_par_iter().map(|k| hidden(k).unwrap_or(false)).collect()
+}
+
 /// One pass, and what it leaves beside it.
 struct Half<'a> {
     family: &'a Family,

@@ -109,7 +109,7 @@ impl Planner<'_> {
         if tree.is_exhausted() {
             return self.too_uneven(rough.net, origin);
         }
-        let finish = Finish { tree, radius, cutter, leave: rough.leave, cusp: None };
+        let finish = Finish { tree, radius, cutter, leave: rough.leave, cusp: None, march: None };
         self.emit_clearing(rough, (&name, ready), &job, (&plan, finish), origin);
         self.tell_islands((&name, rough), &plan, origin);
         self.tell_entries(&name, &plan.tally, origin);
