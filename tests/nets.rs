@@ -192,6 +192,19 @@ fn bent_passes_of_every_cutter_are_proven_and_no_longer_than_straight_ones() {
     }
 }
 
+/// The largest even distance of passes that keeps a height of cusps keeps it, and much of it is used.
+#[test]
+fn even_passes_of_every_cutter_keep_the_height_of_cusps() {
+    let net = format!("N1 = {}", uneven().text());
+    for cutter in CUTTERS {
+        let build = built_by(cutter, &net, "CONST, CUSP, 0.3");
+        let proof = outcome(&build).unwrap_or_else(|codes| panic!("{cutter}: {codes:?}"));
+        assert!(proof.into.value <= 1e-6 && proof.out.value <= 0.02 + 1e-6, "{cutter}");
+        assert!(proof.left_bound <= 0.32 + 1e-4, "{cutter} {}", proof.left_bound);
+        assert!(proof.left.value > 0.15, "{cutter} {}", proof.left.value);
+    }
+}
+
 /// Passes at half the distance are twice as long in all, and as long as the net is wide by the distance at least.
 #[test]
 fn passes_at_one_distance_lie_at_that_distance() {
@@ -205,6 +218,20 @@ fn passes_at_one_distance_lie_at_that_distance() {
         assert!((1.75..2.1).contains(&ratio), "{cutter}: {} {}", near.length, far.length);
         assert!(near.length > 30.0 * 24.0 / 1.5, "{cutter}: {}", near.length);
     }
+}
+
+/// A bull-nose whose flat does not fit the bottom of a valley: what stays there is told apart, along all of it.
+#[test]
+fn the_bottom_of_a_valley_that_a_flat_does_not_fit_is_told_apart() {
+    let net = "N1 = NET/ 3, 3, (0, 0, 9), (1, 4, 10), (2, 8, 9), (10, 0, -5), (11, 4, -4), (12, 8, -5), \
+               (20, 0, 9), (21, 4, 10), (22, 8, 9), WEIGHT, 1, 1, 1, 0.8, 0.7, 0.8, 1, 1, 1";
+    let build = built_by("BULL, 8, 1.5", net, "X, CUSP, 0.2");
+    let proof = outcome(&build).unwrap_or_else(|codes| panic!("{codes:?}"));
+    assert!(proof.into.value <= 1e-6 && proof.out.value <= 0.02 + 1e-6, "{proof:?}");
+    assert!(proof.left_bound <= 0.22 + 1e-4, "{}", proof.left_bound);
+    assert!(proof.unreachable.is_some_and(|w| w.value > 0.33), "{proof:?}");
+    let (stays, beside) = (proof.unreachable_area.expect("an area"), proof.beside_area.expect("an area"));
+    assert!(stays > 0.5 && stays + beside < 0.1 * proof.area, "{stays} {beside} {}", proof.area);
 }
 
 /// Steep nets with valleys in which the ball touches two walls, and with corners that no neighbouring pass cuts.
