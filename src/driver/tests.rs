@@ -123,12 +123,13 @@ const THROUGH: &str = "T1 = CUTTER/ FLAT, 6, NUMBER, 1\nT2 = CUTTER/ FLAT, 8, NU
 const OWN: &str = "inherits = \"fanuc\"\n[post]\ncontrol = \"fanuc M51=through M59=through-off\"\n\
     [coolant]\nthrough = \"M51\"\nthrough-off = \"M59\"\n";
 
-/// The program's M codes of coolant, or the codes of its messages.
-fn coolant(name: &str, source: &str, post: &str) -> Result<String, Vec<&'static str>> {
+/// The program's words among some, or the codes of its messages.
+fn said(name: &str, source: &str, post: &str, among: &[&str]) -> Result<String, Vec<&'static str>> {
     let files = [
         (name, source),
         ("own.post.toml", OWN),
         ("lie.post.toml", &OWN.replace("through = \"M51\"", "through = \"M59\"")),
+        ("silent.post.toml", "inherits = \"haas\"\n[stops]\nrestart = false\n"),
     ];
     let files = MemoryFiles(files.map(|(name, text)| (name.to_owned(), text.to_owned())).into());
     let options = Options { posts: vec![post.to_owned()], ..Options::default() };
@@ -136,11 +137,26 @@ fn coolant(name: &str, source: &str, post: &str) -> Result<String, Vec<&'static 
     let Some(proven) = build.outputs.first().and_then(|o| o.proven.as_ref()) else {
         return Err(build.diagnostics.iter().map(|d| d.code.id).collect());
     };
-    let codes = proven
-        .text()
-        .split_whitespace()
-        .filter(|w| ["M7", "M8", "M9", "M88", "M89", "M51", "M59"].contains(w));
-    Ok(codes.collect::<Vec<_>>().join(" "))
+    let words = proven.text().split_whitespace().filter(|w| among.contains(w));
+    Ok(words.collect::<Vec<_>>().join(" "))
+}
+
+/// The program's M codes of coolant, or the codes of its messages.
+fn coolant(name: &str, source: &str, post: &str) -> Result<String, Vec<&'static str>> {
+    said(name, source, post, &["M7", "M8", "M9", "M88", "M89", "M51", "M59"])
+}
+
+#[test]
+fn what_a_stop_may_have_stopped_is_said_again_before_the_next_move() {
+    const STOPS: &str = "T1 = CUTTER/ FLAT, 6, NUMBER, 1\nLOADTL/ T1\nSPINDL/ 900, CLW\nFEDRAT/ 300\n\
+        COOLNT/ FLOOD\nRAPID\nGOTO/ 0, 0, 5\nGOTO/ 10, 0, 5\nSTOP\nGOTO/ 20, 0, 5\nOPSTOP\nCOOLNT/ OFF\n\
+        GOTO/ 30, 0, 5\nSTOP\nSPINDL/ 800, CLW\nCOOLNT/ FLOOD\nGOTO/ 40, 0, 5\nSTOP\nFINI\n";
+    let codes = |post| said("a.apt", STOPS, post, &["M0", "M1", "M3", "M8", "M9"]);
+    for post in ["fanuc", "haas", "linuxcnc", "heidenhain"] {
+        let text = codes(post).unwrap_or_else(|codes| panic!("{post}: {codes:?}"));
+        assert!(text.starts_with("M3 M8 M0 M3 M8 M1 M9 M3 M0 M3 M8 M0"), "{post}: {text}");
+    }
+    assert!(codes("silent.post.toml").is_err_and(|codes| codes.iter().all(|c| *c == "E0807")));
 }
 
 #[test]

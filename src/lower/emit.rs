@@ -49,6 +49,8 @@ pub(super) struct Carry {
     feed: Option<Feed>,
     rpm: f64,
     coolant: Coolant,
+    standing: bool,
+    dry: bool,
     operation: u32,
     told: usize,
     cycle: Option<Active>,
@@ -99,6 +101,8 @@ impl Carry {
             feed: None,
             rpm: 0.0,
             coolant: Coolant::Off,
+            standing: false,
+            dry: false,
             operation: 0,
             told: 0,
             cycle: None,
@@ -133,7 +137,11 @@ pub(super) struct Emitter<'a> {
     stale: [i64; 4],
     pub(super) feed: Option<Feed>,
     pub(super) rpm: f64,
-    coolant: Coolant,
+    pub(super) coolant: Coolant,
+    /// The spindle stands since a stop of the program, perhaps.
+    pub(super) standing: bool,
+    /// The coolant is off since then, perhaps.
+    pub(super) dry: bool,
     pub(super) operation: u32,
     complaints: Vec<(&'static str, Handle<Origin>)>,
     /// Messages of the chunks before.
@@ -177,6 +185,8 @@ impl<'a> Emitter<'a> {
             feed: None,
             rpm: 0.0,
             coolant: Coolant::Off,
+            standing: false,
+            dry: false,
             operation: 0,
             complaints: Vec::new(),
             told: 0,
@@ -202,6 +212,8 @@ impl<'a> Emitter<'a> {
         self.feed = carry.feed;
         self.rpm = carry.rpm;
         self.coolant = carry.coolant;
+        self.standing = carry.standing;
+        self.dry = carry.dry;
         self.operation = carry.operation;
         self.told = carry.told;
         self.cycle = carry.cycle;
@@ -219,6 +231,7 @@ impl<'a> Emitter<'a> {
             self.of_record = u32::try_from(index).ok();
             if let Some(Some(chain)) = passes.get(index) {
                 self.close_cycle();
+                self.restart(&record.kind);
                 self.pass(chain);
                 continue;
             }
@@ -243,6 +256,8 @@ impl<'a> Emitter<'a> {
             feed: self.feed,
             rpm: self.rpm,
             coolant: self.coolant,
+            standing: self.standing,
+            dry: self.dry,
             operation: self.operation,
             told: self.told + self.complaints.len(),
             cycle: self.cycle,
@@ -271,7 +286,7 @@ impl<'a> Emitter<'a> {
         self.complain_of(at_origin(code, &self.cl.origins, self.origin, message));
     }
 
-    fn complain_of(&mut self, diagnostic: Diagnostic) {
+    pub(super) fn complain_of(&mut self, diagnostic: Diagnostic) {
         let key = (diagnostic.code.id, self.origin);
         if !self.complaints.contains(&key) && self.told + self.complaints.len() < MAX_COMPLAINTS {
             self.complaints.push(key);
@@ -288,6 +303,7 @@ impl<'a> Emitter<'a> {
         if !matches!(record.kind, RecordKind::Hole(_) | RecordKind::Feed(_)) {
             self.close_cycle();
         }
+        self.restart(&record.kind);
         match &record.kind {
             RecordKind::BeginOperation(operation) => self.begin_operation(*operation),
             RecordKind::EndOperation(_) => {}
@@ -296,8 +312,8 @@ impl<'a> Emitter<'a> {
             RecordKind::Feed(feed) => self.set_feed(*feed),
             RecordKind::Coolant(coolant) => self.coolant(*coolant),
             RecordKind::Dwell(seconds) => self.event(BlockKind::Dwell(*seconds)),
-            RecordKind::Stop => self.event(BlockKind::Stop),
-            RecordKind::OptionalStop => self.optional_stop(),
+            RecordKind::Stop => self.stop(false),
+            RecordKind::OptionalStop => self.stop(true),
             RecordKind::Comment(text) => self.event(BlockKind::Comment(text.clone())),
             RecordKind::Insert(text) => self.event(BlockKind::Insert(text.clone())),
             RecordKind::From(point) | RecordKind::Rapid(point) => {
@@ -340,6 +356,7 @@ impl<'a> Emitter<'a> {
     fn load_tool(&mut self, tool: Handle<crate::ir::Tool>) {
         let index = self.tools.index(tool);
         self.event(BlockKind::ToolChange(index));
+        (self.standing, self.dry) = (false, false);
         // A post may stop the coolant for the change.
         if self.coolant != Coolant::Off {
             self.event(BlockKind::Coolant(self.coolant));
@@ -348,23 +365,6 @@ impl<'a> Emitter<'a> {
         self.parked = self.capabilities.parks;
         self.exact = None;
         self.rpm = 0.0;
-    }
-
-    fn spindle(&mut self, spindle: Spindle) {
-        if matches!(spindle, Spindle::On { .. }) {
-            self.spinning = Some(spindle);
-        }
-        self.rpm = match spindle {
-            Spindle::Off => 0.0,
-            Spindle::On { rpm, .. } => rpm,
-        };
-        if let (Spindle::On { rpm, .. }, Some((low, high))) = (spindle, self.capabilities.spindle)
-            && !(low..=high).contains(&rpm)
-        {
-            let message = format!("the spindle turns at {low} to {high} rev/min, not at {rpm}");
-            self.complain(&codes::lowering::SPINDLE_RANGE, message);
-        }
-        self.event(BlockKind::Spindle(spindle));
     }
 
     fn set_feed(&mut self, feed: Feed) {
@@ -376,61 +376,6 @@ impl<'a> Emitter<'a> {
             self.complain(&codes::lowering::NO_FEED_PER_REVOLUTION, message);
         }
         self.feed = Some(feed);
-    }
-
-    fn coolant(&mut self, coolant: Coolant) {
-        let possible = match coolant {
-            Coolant::Off => self.capabilities.flood || self.capabilities.mist || self.capabilities.through,
-            Coolant::Flood => self.capabilities.flood,
-            Coolant::Mist => self.capabilities.mist,
-            Coolant::Through { .. } => self.capabilities.through,
-        };
-        if possible {
-            return self.switch_coolant(coolant);
-        }
-        let other = match coolant {
-            Coolant::Through { needed: true } => return self.no_through(),
-            Coolant::Mist | Coolant::Through { .. } if self.capabilities.flood => Some(Coolant::Flood),
-            Coolant::Flood if self.capabilities.mist => Some(Coolant::Mist),
-            _ => None,
-        };
-        let name = &self.capabilities.name;
-        if coolant != Coolant::Off {
-            let instead = if other.is_some() { "the other kind is used" } else { "none is switched on" };
-            let message = format!("`{name}` cannot switch this coolant; {instead}");
-            self.complain(&codes::lowering::COOLANT, message);
-        }
-        if let Some(other) = other {
-            self.switch_coolant(other);
-        }
-    }
-
-    fn no_through(&mut self) {
-        let message = format!("`{}` has no word for coolant through the tool", self.capabilities.name);
-        let help = "a post of your machine says it, for M51 and M59 with `control = \"fanuc M51=through M59=through-off\"` in \
-                    [post], `through = \"M51\"` and `through-off = \"M59\"` in [coolant]; a CL file with --lenient takes flood";
-        let code = &codes::lowering::NO_THROUGH;
-        self.complain_of(at_origin(code, &self.cl.origins, self.origin, message).help(help));
-    }
-
-    /// Flood and mist are switched on one by one, and off together: one does not replace the other.
-    fn switch_coolant(&mut self, coolant: Coolant) {
-        let off = Coolant::Off;
-        if self.coolant != off && coolant != off && coolant != self.coolant {
-            self.event(BlockKind::Coolant(off));
-        }
-        self.coolant = coolant;
-        self.event(BlockKind::Coolant(coolant));
-    }
-
-    fn optional_stop(&mut self) {
-        if self.capabilities.optional_stop {
-            self.event(BlockKind::OptionalStop);
-        } else {
-            let message = format!("`{}` has no optional stop; it stops here always", self.capabilities.name);
-            self.complain(&codes::lowering::OPTIONAL_STOP, message);
-            self.event(BlockKind::Stop);
-        }
     }
 
     /// A point in linear steps.

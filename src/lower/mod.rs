@@ -23,6 +23,7 @@ mod lead;
 mod pass;
 mod path;
 mod pieces;
+mod process;
 mod rotary;
 mod spline;
 pub mod stream;

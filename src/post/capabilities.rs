@@ -76,6 +76,7 @@ impl Dialect {
             work_offset: self.work_offset(&options, unit),
             options,
             optional_stop: !spec.stops.optional.is_empty(),
+            restart: spec.stops.restart,
             spindle: spec.limits.spindle.map(|[low, high]| (low, high)),
         })
     }

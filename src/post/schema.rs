@@ -335,6 +335,11 @@ const COOLANT: &[Key] = &[
 const STOPS: &[Key] = &[
     key("stop", Shape::Text, "program stop"),
     key("optional", Shape::Text, "optional stop; empty: the control has none"),
+    key(
+        "restart",
+        Shape::Flag,
+        "after a stop, spindle and coolant are said again before the next move: many controls stop both",
+    ),
 ];
 const COMMENTS: &[Key] = &[
     key("open", Shape::Text, "before the text; empty: the control has no comments"),

@@ -412,6 +412,7 @@ pub struct Coolant {
 pub struct Stops {
     pub stop: String,
     pub optional: String,
+    pub restart: bool,
 }
 
 #[derive(Debug, Clone, Deserialize)]

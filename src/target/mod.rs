@@ -132,6 +132,8 @@ pub struct Capabilities {
     pub through: bool,
     /// Optional stop.
     pub optional_stop: bool,
+    /// After a stop of the program spindle and coolant are said again before the next move.
+    pub restart: bool,
     /// What templates read as `options`: the post's own values and those that `MACHIN` changes.
     pub options: std::collections::BTreeMap<String, String>,
     /// The work offset that the program is to select, as the control counts them (1 for the first one); `None` where the

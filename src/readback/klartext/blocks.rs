@@ -66,7 +66,7 @@ impl Reader<'_> {
             ("CYCL", "CALL") => self.call(words.get(2..).unwrap_or_default(), out),
             ("BLK", "FORM") | ("FUNCTION", "RESET") | ("PLANE", "RESET") => {}
             ("STOP", _) => {
-                out.event(EventKind::Stop { optional: false });
+                self.stop(false, out);
                 self.with(rest, out, |_, _, _| {});
             }
             ("M140", "MB") | ("M140", _) => self.with(words, out, |_, _, _| {}),
@@ -204,8 +204,7 @@ impl Reader<'_> {
     /// M codes that act at the end of a block.
     fn late<S: Follow>(&mut self, m: u32, asked: &Asked, out: &mut Out<'_, S>) {
         match m {
-            0 => out.event(EventKind::Stop { optional: false }),
-            1 => out.event(EventKind::Stop { optional: true }),
+            0 | 1 => self.stop(m == 1, out),
             2 | 30 => self.over(),
             5 => self.state.direction = 0.0,
             9 => self.state.coolant = Washing::default(),
@@ -216,6 +215,13 @@ impl Reader<'_> {
         if m == 140 && !asked.back {
             out.fault("M140 without MB");
         }
+    }
+
+    /// M0, M1 and STOP stop the spindle and the coolant, too.
+    fn stop<S: Follow>(&mut self, optional: bool, out: &mut Out<'_, S>) {
+        self.state.direction = 0.0;
+        self.state.coolant = Washing::default();
+        out.event(EventKind::Stop { optional });
     }
 
     /// M2 and M30: what follows but END PGM is never reached.

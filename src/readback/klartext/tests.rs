@@ -81,6 +81,15 @@ fn lines_with_their_feeds() {
 }
 
 #[test]
+fn stops_of_the_program_stop_spindle_and_coolant() {
+    for stop in ["STOP", "M0", "M1"] {
+        let moves = clean(&format!("L Z-1 F120 M8\n{stop}\nL X+5\nM3\nL X+9"));
+        let seen: Vec<(f64, bool)> = moves.iter().map(|m| (m.spindle, m.coolant.flood)).collect();
+        assert_eq!(seen[..3], [(1000.0, true), (0.0, false), (1000.0, false)], "{stop}");
+    }
+}
+
+#[test]
 fn inch_feeds_are_in_tenths_of_an_inch() {
     let trace = trace(&program("INCH", "L X+1 F100"));
     assert_eq!(trace.faults, []);

@@ -490,7 +490,13 @@ impl<'a> Machine<'a> {
     /// Stops and ends come last.
     fn finish_block<S: Follow>(&mut self, plan: &Plan, out: &mut Out<'_, S>) {
         match plan.stop {
-            Some(M::Stop { optional }) => out.event(EventKind::Stop { optional }),
+            Some(M::Stop { optional }) => {
+                if self.rules.stop_stands {
+                    self.state.direction = 0.0;
+                    self.state.coolant = Washing::default();
+                }
+                out.event(EventKind::Stop { optional });
+            }
             Some(M::End) => {
                 self.state.ended = true;
                 self.state.direction = 0.0;

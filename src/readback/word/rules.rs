@@ -241,6 +241,8 @@ pub(in crate::readback) struct Rules {
     pub exact_code: &'static str,
     /// R and I J K in one arc: `true`, R wins; `false`, it is a fault.
     pub radius_wins: bool,
+    /// A stop of the program stops the spindle and the coolant, and nothing starts them again by itself.
+    pub stop_stands: bool,
     /// An arc by R of nearly half a turn can't be computed reliably.
     pub shaky_half_circle: bool,
     /// Words of an arc's centre along X, Y and Z.

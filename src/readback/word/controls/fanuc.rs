@@ -54,6 +54,7 @@ pub(in crate::readback::word) const RULES: Rules = Rules {
     blends: false,
     exact_code: "G61",
     radius_wins: true,
+    stop_stands: false,
     shaky_half_circle: true,
     arc_offsets: *b"IJK",
     arc_radius: b'R',

@@ -52,6 +52,7 @@ pub(super) const RULES: Rules = Rules {
     blends: false,
     exact_code: "G61",
     radius_wins: false,
+    stop_stands: false,
     shaky_half_circle: false,
     arc_turns: false,
     cubic: Cubic::None,

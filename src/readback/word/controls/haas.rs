@@ -5,7 +5,8 @@ use super::super::codes::{G, Group, M};
 use super::super::rules::{Cycles, Dwell, Rules};
 use super::fanuc;
 
-/// P of a dwell is in seconds with a decimal point and in milliseconds without; F under G93 ends at 9999.
+/// P of a dwell is in seconds with a decimal point and in milliseconds without; F under G93 ends at 9999; M0 and M1 stop the
+/// spindle and the coolant.
 pub(super) const RULES: Rules = Rules {
     name: "haas",
     whole_numbers: letters(b"NOTDHSLM"),
@@ -17,6 +18,7 @@ pub(super) const RULES: Rules = Rules {
     dwell: [Some((b'P', Dwell::ByPoint)), None],
     cycles: Some(CYCLES),
     radius_wins: false,
+    stop_stands: true,
     largest_difference: |_, _| 0.005,
     arc_complaint: "the arc's end is off its circle",
     no_feed: "alarm 309, no feed commanded",

@@ -62,6 +62,7 @@ pub(super) const RULES: Rules = Rules {
     blends: true,
     exact_code: "G61",
     radius_wins: false,
+    stop_stands: false,
     shaky_half_circle: false,
     arc_turns: true,
     cubic: Cubic::Exact,

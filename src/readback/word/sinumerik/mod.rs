@@ -116,6 +116,7 @@ pub(in crate::readback) const RULES: Rules = Rules {
     blends: true,
     exact_code: "G60",
     radius_wins: false,
+    stop_stands: false,
     shaky_half_circle: false,
     arc_turns: false,
     largest_difference: |_, _| 0.01,
