@@ -233,6 +233,24 @@ pub enum RecordKind {
     EndCycle,
 }
 
+impl RecordKind {
+    /// Whether the cutter moves.
+    #[must_use]
+    pub fn moves(&self) -> bool {
+        matches!(
+            self,
+            RecordKind::From(_)
+                | RecordKind::Rapid(_)
+                | RecordKind::Linear(_)
+                | RecordKind::Circle(_)
+                | RecordKind::Spline(_)
+                | RecordKind::Hole(_)
+                | RecordKind::Pass(_)
+                | RecordKind::Contour(_)
+        )
+    }
+}
+
 /// An arc or a helix from where the cutter is, by the right-hand rule about its axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Circle {

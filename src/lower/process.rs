@@ -84,7 +84,7 @@ impl Emitter<'_> {
 
     /// What a stop of the program may have stopped is said again before something moves.
     pub(super) fn restart(&mut self, next: &RecordKind) {
-        if !(self.standing || self.dry) || !moves(next) {
+        if !(self.standing || self.dry) || !(next.moves() || matches!(next, RecordKind::BeginCycle(_))) {
             return;
         }
         if let (true, true, Some(on)) = (self.standing, self.rpm > 0.0, self.spinning) {
@@ -95,19 +95,4 @@ impl Emitter<'_> {
         }
         (self.standing, self.dry) = (false, false);
     }
-}
-
-fn moves(kind: &RecordKind) -> bool {
-    matches!(
-        kind,
-        RecordKind::From(_)
-            | RecordKind::Rapid(_)
-            | RecordKind::Linear(_)
-            | RecordKind::Circle(_)
-            | RecordKind::Spline(_)
-            | RecordKind::Pass(_)
-            | RecordKind::BeginCycle(_)
-            | RecordKind::Hole(_)
-            | RecordKind::Contour(_)
-    )
 }

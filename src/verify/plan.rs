@@ -82,16 +82,8 @@ pub(super) fn written(cl: &Cl) -> Vec<Handle<Origin>> {
         match record.kind {
             RecordKind::BeginOperation(_) => inside = true,
             RecordKind::EndOperation(_) => inside = false,
-            RecordKind::From(_)
-            | RecordKind::Rapid(_)
-            | RecordKind::Linear(_)
-            | RecordKind::Circle(_)
-            | RecordKind::Spline(_)
-            | RecordKind::Hole(_)
-                if !inside =>
-            {
-                written.push(record.origin);
-            }
+            // Passes and contours are parts of operations.
+            _ if !inside && record.kind.moves() => written.push(record.origin),
             _ => {}
         }
         if inside && operations.last() != Some(&record.origin) {
