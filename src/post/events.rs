@@ -370,8 +370,11 @@ impl<'a> Events<'a> {
         let fits = seconds >= 0.0 && seconds <= max && value <= range;
         let steps = steps.filter(|_| fits);
         if steps.is_none() {
-            let message =
-                format!("a dwell of {seconds} s does not fit this control's word (at most {max} s)");
+            let least = 1.0 / (scale * crate::math::pow(10.0, f64::from(decimals)));
+            let most = max.min(range / scale);
+            let message = format!(
+                "a dwell of {seconds} s does not fit this control's word (at least {least} s, at most {most} s)"
+            );
             self.error(&codes::post::WORD_RANGE, message);
         }
         steps

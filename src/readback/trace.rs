@@ -42,6 +42,17 @@ pub struct Fault {
     pub message: String,
 }
 
+/// How complaints of G and M codes begin that the machine does not have.
+pub(crate) const UNKNOWN_CODE: &str = "unknown code ";
+
+impl Fault {
+    /// The code, when the complaint is that neither control nor machine has it.
+    #[must_use]
+    pub fn unknown_code(&self) -> Option<&str> {
+        self.message.strip_prefix(UNKNOWN_CODE).filter(|name| !name.contains(':'))
+    }
+}
+
 /// One thing the machine does.
 #[derive(Debug, Clone)]
 pub struct TraceEvent {

@@ -24,6 +24,7 @@ pub(super) struct Finding {
     block: Option<usize>,
     text: Text,
     notes: Vec<Text>,
+    help: Option<String>,
     /// Where passes that lie closer would help; all of it, where there are any.
     short: Vec<Shortfall>,
 }
@@ -92,7 +93,7 @@ fn decimals(value: f64, places: usize) -> String {
 
 impl Finding {
     pub(super) fn new(code: &'static Code, line: u32, block: Option<usize>, text: Text) -> Self {
-        Finding { code, line, block, text, notes: Vec::new(), short: Vec::new() }
+        Finding { code, line, block, text, notes: Vec::new(), help: None, short: Vec::new() }
     }
     pub(super) fn note(mut self, text: Text) -> Self {
         self.notes.push(text);
@@ -107,6 +108,9 @@ impl Finding {
     pub(super) fn short(&self) -> &[Shortfall] {
         &self.short
     }
+    fn help(self, help: String) -> Self {
+        Finding { help: Some(help), ..self }
+    }
     pub(super) fn line(&self) -> u32 {
         self.line
     }
@@ -117,9 +121,10 @@ impl Finding {
         let mut said = Text::default().words(place);
         said.0.extend(self.text.0.iter().cloned());
         let code = &crate::diag::codes::planning::INSERT_SPOILS;
-        Finding::new(code, line, Some(block), text)
+        let finding = Finding::new(code, line, Some(block), text)
             .note(said)
-            .note(Text::default().words("without the inserted blocks the program is proven"))
+            .note(Text::default().words("without the inserted blocks the program is proven"));
+        Finding { help: self.help.clone(), ..finding }
     }
 }
 
@@ -130,7 +135,15 @@ pub(super) fn of_control(trace: &Trace, lines: &Lines) -> Vec<Finding> {
     faults
         .chain(assumed)
         .map(|(code, f)| {
-            Finding::new(code, f.line, lines.block(f.line), Text::default().words(f.message.clone()))
+            let text = Text::default().words(f.message.clone());
+            let finding = Finding::new(code, f.line, lines.block(f.line), text);
+            match f.unknown_code() {
+                Some(name) => finding.help(format!(
+                    "where the machine has it and it neither moves nor stops anything, its post says `{name}=nothing` behind \
+                     `control` (docs/readers.md)"
+                )),
+                None => finding,
+            }
         })
         .collect()
 }
@@ -166,6 +179,9 @@ impl<'a> Reporter<'a> {
         };
         for note in &finding.notes {
             diagnostic = diagnostic.note(note.render(unit));
+        }
+        if let Some(help) = &finding.help {
+            diagnostic = diagnostic.help(help);
         }
         self.sink.push(diagnostic);
     }

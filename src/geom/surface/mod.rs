@@ -12,6 +12,7 @@ pub mod heights;
 pub mod interval;
 pub mod net;
 pub mod patch;
+mod peaks;
 pub mod rim;
 pub mod spline;
 pub mod standing;

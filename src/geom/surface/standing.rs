@@ -6,14 +6,17 @@
 //! an area is known to a part's size. Only a region narrower than a cell may be overlooked.
 
 use super::heights::Blank;
+use super::peaks::Peaks;
 use super::{Contact, Cutter, SurfaceTree};
-use crate::geom::{Point2, nearest_on_way};
+use crate::geom::{Point2, Point3, nearest_on_way};
 use crate::math::{ceil_to_usize, count};
 
 /// Cells at most.
 const MOST_CELLS: f64 = 4e5;
 /// Parts of a cell along an axis.
 const PARTS: usize = 8;
+/// Cells of the points that tell at most places that the tip may not be there, as a share of the radius.
+const PEAKS: f64 = 0.2;
 /// Radius of the ball that tells whether a place lies over the surface, mm.
 const NEEDLE: f64 = 1e-3;
 
@@ -38,6 +41,7 @@ pub struct Standing<'a> {
     low: Point2,
     cell: f64,
     counts: [usize; 2],
+    peaks: Peaks,
     /// Lowest height of the tip over the middle of each cell, where it has been asked for.
     tips: Vec<Option<f64>>,
     hint: Option<Contact>,
@@ -53,7 +57,9 @@ impl<'a> Standing<'a> {
         let cell = cell.max((size.x * size.y / MOST_CELLS).sqrt()).max(1e-3);
         let counts = [0, 1].map(|i| ceil_to_usize(size[i] / cell).min(1_000_000));
         let tips = vec![None; counts[0] * counts[1]];
-        Standing { tree, cutters: (cutter, cutter.grown(leave)), blank, low, cell, counts, tips, hint: None }
+        let peaks = Peaks::new(tree, PEAKS * cutter.radius());
+        let cutters = (cutter, cutter.grown(leave));
+        Standing { tree, cutters, blank, low, cell, counts, peaks, tips, hint: None }
     }
 
     /// What stands after the tip has gone along these ways at height `z`, farther from them than `reach`: the largest first.
@@ -97,20 +103,27 @@ impl<'a> Standing<'a> {
     }
 
     fn may_stand(&mut self, k: usize, z: f64) -> bool {
-        let tip = match self.tips[k] {
-            Some(tip) => tip,
+        let p = self.middle(k);
+        match self.tips[k] {
+            Some(tip) => tip <= z,
+            None if self.may_not(p, z) => false,
             None => {
-                let tip = self.tip(self.middle(k));
+                let tip = self.tip(p);
                 self.tips[k] = Some(tip);
-                tip
+                tip <= z
             }
-        };
-        tip <= z
+        }
+    }
+
+    /// Whether the tip may certainly not be at this height here.
+    fn may_not(&self, p: Point2, z: f64) -> bool {
+        let (cutter, hull) = self.cutters;
+        self.blank.distance(p) > 0.0 || self.peaks.reach_into(&hull, Point3::new(p.x, p.y, z + cutter.lift()))
     }
 
     /// Lowest height of the tip; infinite beside the surface or the blank.
     fn tip(&mut self, p: Point2) -> f64 {
-        if self.blank.distance(p) > 0.0 || Cutter::ball(NEEDLE).drop(self.tree, p.x, p.y, None).is_none() {
+        if Cutter::ball(NEEDLE).drop(self.tree, p.x, p.y, None).is_none() {
             return f64::INFINITY;
         }
         let (cutter, hull) = self.cutters;
@@ -138,7 +151,7 @@ impl<'a> Standing<'a> {
             let [x, y] = [n / PARTS, n % PARTS].map(|i| (count(i) + 0.5) * size - 0.5 * self.cell);
             let p = Point2::new(middle.x + x, middle.y + y);
             let off = from_ways(&near, p);
-            if off > reach && self.tip(p) <= z {
+            if off > reach && !self.may_not(p, z) && self.tip(p) <= z {
                 found.0 += size * size;
                 if off > found.2 {
                     (found.1, found.2) = (p, off);

@@ -5,6 +5,7 @@ use super::ends::Ends;
 use super::measure::Range;
 use super::search::{Effort, Goal, Search, Stuck, Vertex, WIDE, seed};
 use super::tube::{Gates, Guard, Plane, ROUNDING, Stations};
+use super::turns::turned;
 use super::window::Course;
 use super::{Fit, FitError, Primitive, Tube, bound};
 use crate::geom::Vec2;
@@ -260,6 +261,7 @@ impl Solver<'_> {
         } else {
             self.open(&gates, effort)?
         };
+        let vertices = turned(&gates, self.stations.plane, vertices);
         let fraction = fraction(&vertices);
         let range = Certificate { tube: self.tube, stations: self.stations }.chain(&vertices);
         let inside = range.high <= self.tube.left + ACCEPTED && range.low >= -self.tube.right - ACCEPTED;

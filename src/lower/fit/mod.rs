@@ -31,6 +31,7 @@ mod spirals;
 #[cfg(test)]
 mod tests;
 pub mod tube;
+mod turns;
 mod window;
 
 pub use arcs::arcs;

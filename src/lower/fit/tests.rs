@@ -387,7 +387,15 @@ fn a_centred_circle_is_one_turn_of_few_spirals() {
     let circle = Fourier { centre: Vec2::zeros(), terms: vec![(25.0, 0.0)], breaks: [0.0, math::TAU] };
     let tube = Tube { curve: &circle, left: 0.01, right: 0.01 };
     let fit = spirals(&tube, &grid(3), None).unwrap();
-    assert!(fit.primitives.len() <= 2, "{}", fit.primitives.len());
+    // an axis that rolls over by the shorter way must turn the right way too
+    assert_eq!(fit.primitives.len(), 3);
+    let mut before = fit.start[1];
+    for link in &fit.primitives {
+        let Primitive::Spiral { to } = link else { panic!("{link:?}") };
+        assert!((1..180_000).contains(&(to[1] - before)), "{} to {}", before, to[1]);
+        before = to[1];
+    }
+    assert_eq!(before - fit.start[1], 360_000);
 }
 
 #[test]

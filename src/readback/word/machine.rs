@@ -7,6 +7,7 @@ use super::renamed;
 use super::rules::{FeedReset, Language, Rules, Unpointed};
 use super::state::{Plan, State};
 use crate::readback::out::Out;
+use crate::readback::trace::UNKNOWN_CODE;
 use crate::readback::{EventKind, FeedMode, Follow, MachineSetup, Washing};
 
 /// Millimetres in an inch.
@@ -107,7 +108,7 @@ impl<'a> Machine<'a> {
             let piece = code == 50 && self.rules.cubic != Cubic::None;
             let g = if piece { Some(G::Motion(Mode::Cubic)) } else { (self.rules.g)(code) };
             let Some(g) = g else {
-                out.fault(format!("unknown code {}", g_name(code)));
+                out.fault(format!("{UNKNOWN_CODE}{}", g_name(code)));
                 good = false;
                 continue;
             };
@@ -115,7 +116,7 @@ impl<'a> Machine<'a> {
         }
         for code in block.m.iter() {
             let Some(m) = renamed::inside(code).or_else(|| (self.rules.m)(code)) else {
-                out.fault(format!("unknown code M{}", tenths(code)));
+                out.fault(format!("{UNKNOWN_CODE}M{}", tenths(code)));
                 good = false;
                 continue;
             };
