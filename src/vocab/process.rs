@@ -408,7 +408,12 @@ pub const ROWS: &[Statement] = &[
         CUTCOM,
     ),
     row("DELAY", "dwells", "DELAY/ 2s", DELAY),
-    row("STOP", "program stop, M0", "STOP", &[]),
-    row("OPSTOP", "optional stop, M1", "OPSTOP", &[]),
+    row(
+        "STOP",
+        "program stop, M0; spindle and coolant are said again before the next move, since many controls stop both",
+        "STOP",
+        &[],
+    ),
+    row("OPSTOP", "optional stop, M1; spindle and coolant are said again as after `STOP`", "OPSTOP", &[]),
     row("END", "end of the machine program; the post writes it at the end anyway", "END", &[]),
 ];
