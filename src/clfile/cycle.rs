@@ -3,6 +3,7 @@
 use super::grammar::{Arg, Statement};
 use super::reader::Reader;
 use crate::cl::{Cycle, CycleKind, RecordKind, RetractTo};
+use crate::diag::Diagnostic;
 use crate::diag::codes::foreign as codes;
 use crate::geom::Point3;
 use crate::ir::{Feed, Spindle};
@@ -15,12 +16,20 @@ pub(super) struct Asked {
     return_to: Return,
     /// The feed is given in the record, not by `FEDRAT`.
     own_feed: bool,
+    /// The pitch of the tap is what feed and speed make at the hole.
+    pitch_of_feed: bool,
+    /// Turns of the spindle that the dwell takes.
+    turns: Option<f64>,
+    /// The points are bottoms of holes, and these heights in the part are for rapid and between holes.
+    planes: Option<(f64, f64)>,
     /// Surface of the holes since the cycle's begin in the CL data.
     open: Option<f64>,
 }
 
 /// Least depth of a hole or a peck, mm.
 const LEAST_DEPTH: f64 = 0.001;
+/// Distance off the wall of a cutter that is not known, mm, at most.
+const FARTHEST_SHIFT: f64 = 10.0;
 /// Longest dwell of a cycle, s.
 const LONGEST_DWELL: f64 = 99_999.0;
 
@@ -33,7 +42,12 @@ pub(super) enum Return {
     Begin,
     /// To this height above the hole's point, mm.
     Above(f64),
+    /// To this height above the hole's point, and not below where the cycle began if that is the same number.
+    Clear(f64),
 }
+
+/// Heights that differ by less are one, mm.
+const SAME_HEIGHT: f64 = 1e-3;
 
 impl Asked {
     /// A cycle with its feed; no peck is deeper than the hole.
@@ -50,7 +64,15 @@ impl Asked {
         if peck.into_iter().chain(first_peck).any(|p| p < LEAST_DEPTH) {
             return Err(format!("the cycle's pecks are less than {LEAST_DEPTH} mm deep"));
         }
-        Ok(Asked { cycle: Cycle { peck, first_peck, ..cycle }, return_to, own_feed: true, open: None })
+        Ok(Asked {
+            cycle: Cycle { peck, first_peck, ..cycle },
+            return_to,
+            own_feed: true,
+            pitch_of_feed: false,
+            turns: None,
+            planes: None,
+            open: None,
+        })
     }
 
     /// Depth below the hole's point, mm.
@@ -65,6 +87,10 @@ impl Asked {
             Return::Clearance => clearance,
             Return::Above(height) => z + height,
             Return::Begin => at.map_or(clearance, |at| at.z.max(clearance)),
+            Return::Clear(height) => {
+                let begin = at.map(|at| at.z).filter(|at| (at - height).abs() <= SAME_HEIGHT);
+                begin.map_or(z + height, |at| at.max(z + height))
+            }
         }
     }
 }
@@ -112,17 +138,26 @@ impl Reader<'_> {
         let Some(word) = s.words().next().map(str::to_owned) else {
             return self.complain(&codes::BAD_CYCLE, "CYCLE takes the kind of cycle, or OFF".to_owned());
         };
+        self.state.cycle_cut = None;
         match word.as_str() {
             "OFF" | "NOMORE" => self.leave_cycle(),
             "CLEAR" if s.args.len() == 1 => self.leave_cycle(),
+            _ if s.args.len() == 2 && s.has("OFF") => self.leave_cycle(),
             "INIT" => {}
             "ON" if self.state.cycle.is_some() => {}
+            // The one before is in force again.
+            "ON" if s.args.len() == 1 && self.state.cycle_before.is_some() => {
+                self.state.cycle = self.state.cycle_before.take();
+            }
             _ => self.begin_asked(&word, s),
         }
     }
 
     fn begin_asked(&mut self, word: &str, s: &Statement) {
         self.leave_cycle();
+        // A cycle goes to its holes at rapid anyway.
+        self.state.rapid = false;
+        self.state.drilled = None;
         match self.asked(word, s) {
             Ok(asked) => self.state.cycle = Some(asked),
             Err(message) => {
@@ -136,34 +171,55 @@ impl Reader<'_> {
         let scale = self.state.scale;
         let value = |words: &[&str]| words.iter().find_map(|w| s.after(w)).map(|v| v * scale);
         self.known_words(word, s)?;
+        let word = s.words().skip(1).find(|w| FINER.contains(w)).unwrap_or(word);
         let bare = bare_numbers(s);
         let depth = value(DEPTH).or_else(|| bare.first().map(|v| v * scale)).map(f64::abs);
         let depth = depth.ok_or("the cycle has no depth: FEDTO or DEPTH")?;
         let spare = if value(DEPTH).is_some() { 0 } else { 1 };
-        let last = bare.get(spare..).and_then(<[f64]>::last).map(|v| v * scale);
-        let clearance = value(CLEARANCE).or(last).filter(|c| *c >= 0.0);
-        let clearance = clearance.ok_or("the cycle has no clearance: RAPTO or CLEAR")?;
-        let (feed, own_feed) = self.cycle_feed(s);
-        let dwell = self.cycle_dwell(s)?;
-        let word = s.words().skip(1).find(|w| FINER.contains(w)).unwrap_or(word);
-        let kind = self.kind(word, s, dwell, feed)?;
-        let (peck, first_peck) = pecks(s, scale);
-        if let Some(v) = spare_number(s) {
+        if let Some(v) = spare_number(s).or_else(|| bare.get(spare + 1).copied()) {
             return Err(format!("the cycle has a number that belongs to no word: {v}"));
         }
-        if matches!(kind, CycleKind::Deep | CycleKind::ChipBreak) && peck.is_none() {
-            return Err("the cycle has no depth of cut: STEP or SUBPECK".to_owned());
-        }
-        let begin = RETURN.iter().any(|w| word_after(s, w).is_some_and(|w| w == "ON" || w == "AUTO"));
-        let return_to = match value(RETURN).filter(|r| *r > clearance) {
-            Some(height) => Return::Above(height),
-            None if begin => Return::Begin,
-            None => Return::Clearance,
+        let last = bare.get(spare).map(|v| v * scale);
+        let planes = match (last, s.after("RAPTO")) {
+            (Some(height), Some(down)) if spare > 0 => Some(self.planes(height, down * scale)?),
+            _ => None,
         };
+        let own_feed = self.own_feed(s);
+        let turns = cycle_turns(s);
+        let dwell = self.cycle_dwell(s, turns)?;
+        let (peck, first_peck) = pecks(s, scale);
+        let (kind, pitch_of_feed) = self.kind(word, s, dwell.is_some() || turns.is_some_and(|t| t > 0.0))?;
+        match (kind, peck) {
+            (CycleKind::Deep | CycleKind::ChipBreak, None) => {
+                return Err("the cycle has no depth of cut: STEP or SUBPECK".to_owned());
+            }
+            (CycleKind::Deep | CycleKind::ChipBreak, _) | (_, None) => {}
+            (_, Some(peck)) => {
+                let peck = peck / scale;
+                return Err(format!(
+                    "the cycle {word} has a depth of cut, {peck}: it belongs to DEEP or BRKCHP"
+                ));
+            }
+        }
+        let (clearance, return_to) = levels(s, scale, last)?;
         let retract = if return_to == Return::Clearance { RetractTo::Clearance } else { RetractTo::Initial };
-        let feed = feed.unwrap_or(Feed::PerMinute(0.0));
+        let feed = own_feed.unwrap_or(Feed::PerMinute(0.0));
         let cycle = Cycle { kind, depth, clearance, retract, peck, first_peck, dwell, feed };
-        Ok(Asked { own_feed, ..Asked::new(cycle, return_to)? })
+        let own_feed = own_feed.is_some();
+        Ok(Asked { own_feed, pitch_of_feed, turns, planes, ..Asked::new(cycle, return_to)? })
+    }
+
+    /// Heights of the form `DRILL, depth, MMPM, feed, clearance, RAPTO, down`, as Autodesk's ISO 4343 post writes it: the
+    /// points are bottoms, the clearance is the plane on which the tool is, and `RAPTO` goes down from it.
+    fn planes(&self, height: f64, down: f64) -> Result<(f64, f64), String> {
+        match self.state.at {
+            Some(at) if (at.z - height).abs() <= SAME_HEIGHT && down >= 0.0 => Ok((height - down, height)),
+            _ => Err(
+                "the cycle has a clearance and RAPTO, and the tool is not at that height: what they count \
+                      from is not known"
+                    .to_owned(),
+            ),
+        }
     }
 
     /// A word that nobody knows may change the hole.
@@ -176,75 +232,78 @@ impl Reader<'_> {
         }
     }
 
-    fn kind(
-        &self,
-        word: &str,
-        s: &Statement,
-        dwell: Option<f64>,
-        feed: Option<Feed>,
-    ) -> Result<CycleKind, String> {
+    /// The kind, and whether a tap's pitch is what feed and speed make.
+    fn kind(&self, word: &str, s: &Statement, dwells: bool) -> Result<(CycleKind, bool), String> {
         let action = KINDS.iter().find(|(words, _)| words.contains(&word)).map(|(_, action)| *action);
         let action = action.ok_or_else(|| format!("the cycle {word} is not known"))?;
-        Ok(match (action, dwell) {
-            (Action::Drill, None) => CycleKind::Drill,
+        let shift = s.after("ORIENT").or_else(|| s.after("NODRAG"));
+        let kind = match (action, dwells) {
+            (Action::Drill, false) => CycleKind::Drill,
             (Action::Drill | Action::Face, _) => CycleKind::Dwell,
             (Action::Deep, _) => CycleKind::Deep,
             (Action::ChipBreak, _) => CycleKind::ChipBreak,
             (Action::Tap, _) => {
-                CycleKind::Tap { pitch: self.pitch(s, feed)?, left: s.has("LEFT") || s.has("CCLW") }
+                let pitch = s.after("PITCH").map(|pitch| pitch * self.state.scale);
+                let left = s.has("LEFT") || s.has("CCLW");
+                return Ok((CycleKind::Tap { pitch: pitch.unwrap_or(0.0), left }, pitch.is_none()));
             }
+            // An angle of 0 and no distance: it comes out as other boring does.
+            (Action::Bore, _) if shift == Some(0.0) && !s.has("NODRAG") => bore(dwells),
             (Action::Bore, _) if s.has("NODRAG") || s.has("ORIENT") => {
-                let shift = s.after("ORIENT").or_else(|| s.after("NODRAG"));
                 let shift = shift.ok_or("the cycle has no distance to move off the wall: ORIENT")?;
-                CycleKind::BoreOrient { shift: shift * self.state.scale }
+                CycleKind::BoreOrient { shift: self.off_the_wall(shift)? }
             }
             (Action::Bore, _) if s.has("DRAG") => CycleKind::BoreStop,
-            (Action::Bore | Action::Ream, Some(_)) => CycleKind::BoreDwell,
-            (Action::Bore | Action::Ream, None) => CycleKind::Bore,
-        })
-    }
-
-    fn pitch(&self, s: &Statement, feed: Option<Feed>) -> Result<f64, String> {
-        if let Some(pitch) = s.after("PITCH") {
-            return Ok(pitch * self.state.scale);
-        }
-        let speed = match self.state.spindle {
-            Some(Spindle::On { rpm, .. }) => Some(rpm),
-            _ => None,
+            (Action::Bore | Action::Ream, _) => bore(dwells),
         };
-        match (feed.or(self.state.feed), speed) {
-            (Some(Feed::PerRevolution(pitch)), _) => Ok(pitch),
-            (Some(Feed::PerMinute(feed)), Some(rpm)) => Ok(feed / rpm),
-            _ => {
-                Err("tapping has no pitch: a feed per revolution, or a feed and a turning spindle".to_owned())
-            }
-        }
+        Ok((kind, false))
     }
 
-    fn cycle_feed(&mut self, s: &Statement) -> (Option<Feed>, bool) {
-        for word in FEEDS {
+    /// A distance off the wall, mm. Some systems write an angle there.
+    fn off_the_wall(&self, shift: f64) -> Result<f64, String> {
+        let radius = self.current_diameter().map_or(FARTHEST_SHIFT, |d| d / 2.0);
+        let mm = shift * self.state.scale;
+        if mm > 0.0 && mm <= radius {
+            return Ok(mm);
+        }
+        Err(format!("{shift} behind ORIENT or NODRAG is no distance for this cutter to move off the wall"))
+    }
+
+    /// The tap's kind with what feed and speed make at the hole: its pitch, and its hand.
+    fn tap(&self, asked: &Asked) -> Result<CycleKind, String> {
+        let CycleKind::Tap { pitch, left } = asked.cycle.kind else { return Ok(asked.cycle.kind) };
+        let feed = if asked.own_feed { Some(asked.cycle.feed) } else { self.state.feed };
+        let pitch = match (feed, self.state.spindle) {
+            _ if !asked.pitch_of_feed => pitch,
+            (Some(Feed::PerRevolution(pitch)), _) => pitch,
+            (Some(Feed::PerMinute(feed)), Some(Spindle::On { rpm, .. })) => feed / rpm,
+            _ => {
+                return Err(
+                    "tapping has no pitch: a feed per revolution, or a feed and a turning spindle".to_owned()
+                );
+            }
+        };
+        let backwards = matches!(self.state.spindle, Some(Spindle::On { clockwise: false, .. }));
+        Ok(CycleKind::Tap { pitch, left: left || backwards })
+    }
+
+    /// The feed that the record itself gives.
+    fn own_feed(&mut self, s: &Statement) -> Option<Feed> {
+        FEEDS.iter().find_map(|word| {
             // Depth and feed before their unit, or the feed behind it.
             let at = s.args.iter().position(|a| matches!(a, Arg::Word(w) if w == word));
             let value = at.and_then(|at| feed_before(s, at)).or_else(|| s.after(word).filter(|v| *v > 0.0));
-            if let Some(value) = value {
-                return (self.feed_of(value, &[word]), true);
-            }
-        }
-        (self.state.feed, false)
+            value.and_then(|value| self.feed_of(value, &[word]))
+        })
     }
 
-    fn cycle_dwell(&self, s: &Statement) -> Result<Option<f64>, String> {
-        // `DWELL, 2` are seconds; `DWELL, 2, REV`, `DWELL, REV, 2` and `REV, 2` are turns.
-        let turns = s.after("REV").or_else(|| s.after("DWELL").filter(|_| s.has("REV")));
+    /// Seconds of dwell; of turns, for the speed in force.
+    fn cycle_dwell(&self, s: &Statement, turns: Option<f64>) -> Result<Option<f64>, String> {
         let seconds = match (turns, s.after("DWELL"), self.state.spindle) {
-            (None, Some(seconds), _) => seconds,
-            (Some(turns), _, Some(Spindle::On { rpm, .. })) => turns * 60.0 / rpm,
-            (Some(_), ..) => return Err("revolutions of dwell need a turning spindle".to_owned()),
+            (None, Some(seconds), _) => dwell_in_range(seconds)?,
+            (Some(turns), _, Some(Spindle::On { rpm, .. })) => dwell_of_turns(turns, rpm)?,
             _ => return Ok(None),
         };
-        if !(0.0..=LONGEST_DWELL).contains(&seconds) {
-            return Err(format!("a dwell of {seconds} s is not between 0 and {LONGEST_DWELL}"));
-        }
         Ok(Some(seconds).filter(|s| *s > 0.0))
     }
 
@@ -260,19 +319,85 @@ impl Reader<'_> {
     /// A point while a cycle is in force.
     pub(super) fn hole(&mut self, point: Point3) {
         let Some(asked) = self.state.cycle.clone() else { return };
-        if asked.open != Some(point.z) {
+        let told = point;
+        let (asked, point) = match self.in_force(asked, point) {
+            Ok(now) => now,
+            Err(message) => {
+                self.close_cycle();
+                self.state.cycle_failed = true;
+                return self.complain(&codes::BAD_CYCLE, message);
+            }
+        };
+        let clearance = asked.cycle.clearance;
+        let same = self.state.cycle.as_ref().is_some_and(|old| old.cycle == asked.cycle);
+        if !same || asked.open != Some(point.z) || !self.state.spindle_recorded {
             self.open_cycle(asked, point);
         }
+        self.state.drilled = Some(point.z);
+        self.not_at_rapid(clearance);
         self.emit(RecordKind::Hole(point));
         let at = self.state.at;
         let level = self.state.cycle.as_ref().map_or(point.z, |a| a.level(point.z, at));
         self.state.at = Some(Point3::new(point.x, point.y, level));
+        self.state.hole = Some(told);
+    }
+
+    /// A point at rapid, perhaps while a cycle is in force.
+    pub(super) fn rapid_in_cycle(&mut self, to: Point3) {
+        if self.state.cycle.is_some() {
+            self.state.rapid_in_cycle.get_or_insert((to.z, self.span));
+        }
+    }
+
+    /// Over the holes one goes at rapid, but not down to them: such a point may be meant to be one.
+    fn not_at_rapid(&mut self, clearance: f64) {
+        let Some((z, span)) = self.state.rapid_in_cycle.take() else { return };
+        if self.state.drilled.is_some_and(|surface| z >= surface + clearance - SAME_HEIGHT) {
+            return;
+        }
+        let message =
+            "a point at rapid, in a cycle, below its clearance: whether this is a hole is not known";
+        self.tell(
+            Diagnostic::new(&codes::BAD_CYCLE, span, message)
+                .help("leave out RAPID, or put CYCLE/ OFF before it"),
+        );
+    }
+
+    /// The cycle with what the file has put in force until this hole, and the hole's point on the surface.
+    fn in_force(&self, mut asked: Asked, mut point: Point3) -> Result<(Asked, Point3), String> {
+        asked.cycle.kind = self.tap(&asked)?;
+        let tap = matches!(asked.cycle.kind, CycleKind::Tap { .. });
+        if let (Some(feed), false, false) = (self.state.feed, asked.own_feed, tap) {
+            asked.cycle.feed = feed;
+        }
+        match (asked.turns, self.state.spindle) {
+            (Some(turns), Some(Spindle::On { rpm, .. })) if turns > 0.0 => {
+                asked.cycle.dwell = Some(dwell_of_turns(turns, rpm)?);
+            }
+            (Some(turns), _) if turns > 0.0 => {
+                return Err("revolutions of dwell need a turning spindle".to_owned());
+            }
+            _ => {}
+        }
+        if let Some((rapid, back)) = asked.planes {
+            point.z += asked.cycle.depth;
+            if rapid < point.z - SAME_HEIGHT {
+                return Err(format!(
+                    "rapid would end {} mm below the top of the hole",
+                    ((point.z - rapid) * 1e4).round() / 1e4
+                ));
+            }
+            asked.cycle.clearance = (rapid - point.z).max(0.0);
+            asked.cycle.retract = RetractTo::Initial;
+            asked.return_to = Return::Above(back - point.z);
+        }
+        Ok((asked, point))
     }
 
     /// Starts the cycle in the CL data at its retract level.
     fn open_cycle(&mut self, mut asked: Asked, point: Point3) {
         self.close_cycle();
-        self.ready_to_drill(&mut asked);
+        self.ready_to_drill(&asked);
         self.make_sure();
         let level = asked.level(point.z, self.state.at);
         match self.state.at {
@@ -294,7 +419,7 @@ impl Reader<'_> {
         self.state.cycle = Some(asked);
     }
 
-    fn ready_to_drill(&mut self, asked: &mut Asked) {
+    fn ready_to_drill(&mut self, asked: &Asked) {
         if self.state.load.is_some() || self.state.loaded.is_none() {
             self.flush_tool();
         }
@@ -302,11 +427,9 @@ impl Reader<'_> {
         if !self.state.spindle_recorded {
             self.record_spindle();
         }
-        if !asked.own_feed && !matches!(asked.cycle.kind, CycleKind::Tap { .. }) {
-            match self.state.feed {
-                Some(feed) => asked.cycle.feed = feed,
-                None => self.lacks("FEDRAT"),
-            }
+        let tap = matches!(asked.cycle.kind, CycleKind::Tap { .. });
+        if !asked.own_feed && !tap && self.state.feed.is_none() {
+            self.lacks("FEDRAT");
         }
     }
 
@@ -326,9 +449,72 @@ impl Reader<'_> {
     /// The cycle ends.
     pub(super) fn leave_cycle(&mut self) {
         self.close_cycle();
-        self.state.cycle = None;
+        let clearance = self.state.cycle.as_ref().map(|asked| asked.cycle.clearance);
+        if let (Some(clearance), false) = (clearance, self.state.cycle_failed) {
+            self.not_at_rapid(clearance);
+        }
+        self.state.rapid_in_cycle = None;
+        self.state.cycle_before = self.state.cycle.take().or(self.state.cycle_before.take());
         self.state.cycle_failed = false;
     }
+
+    /// The cycle ends with something else than its own end.
+    pub(super) fn cut_cycle(&mut self) {
+        if self.state.cycle.is_some() {
+            self.state.cycle_cut = Some(self.span);
+        }
+        self.leave_cycle();
+    }
+
+    /// A point behind what cut a cycle short: was it to be a hole?
+    pub(super) fn behind_cycle(&mut self) {
+        if let Some(cut) = self.state.cycle_cut.take() {
+            let message =
+                "a cycle was in force, and ended without CYCLE/ OFF: whether this is a hole is not known";
+            self.tell(Diagnostic::new(&codes::BAD_CYCLE, self.span, message).label(cut, "it ended here"));
+        }
+    }
+}
+
+/// Boring that comes out at feed.
+fn bore(dwells: bool) -> CycleKind {
+    if dwells { CycleKind::BoreDwell } else { CycleKind::Bore }
+}
+
+/// Seconds that turns of the spindle take.
+fn dwell_of_turns(turns: f64, rpm: f64) -> Result<f64, String> {
+    dwell_in_range(turns * 60.0 / rpm)
+}
+
+fn dwell_in_range(seconds: f64) -> Result<f64, String> {
+    if (0.0..=LONGEST_DWELL).contains(&seconds) {
+        return Ok(seconds);
+    }
+    Err(format!("a dwell of {seconds} s is not between 0 and {LONGEST_DWELL}"))
+}
+
+/// Turns of the spindle that a dwell takes: `DWELL, 2` are seconds; `DWELL, 2, REV`, `DWELL, REV, 2` and `REV, 2` are turns.
+fn cycle_turns(s: &Statement) -> Option<f64> {
+    s.after("REV").or_else(|| s.after("DWELL").filter(|_| s.has("REV")))
+}
+
+/// Clearance above the holes, mm, and where the tool goes after them.
+fn levels(s: &Statement, scale: f64, last: Option<f64>) -> Result<(f64, Return), String> {
+    let value = |words: &[&str]| words.iter().find_map(|w| s.after(w)).map(|v| v * scale);
+    let rapid = value(CLEARANCE).or(last).filter(|c| *c >= 0.0);
+    let rapid = rapid.ok_or("the cycle has no clearance: RAPTO or CLEAR")?;
+    // With RAPTO, CLEAR is the height between the holes; some systems write a plane of the part there.
+    let clear = s.after("RAPTO").and_then(|_| value(&["CLEAR", "CLEARP"]));
+    let height = value(RETURN);
+    let begin = RETURN.iter().any(|w| word_after(s, w).is_some_and(|w| w == "ON" || w == "AUTO"));
+    let return_to = match (height, clear) {
+        (Some(height), Some(clear)) if height == clear && height > rapid => Return::Clear(height),
+        (Some(height), _) if height > rapid => Return::Above(height),
+        (None, Some(clear)) if clear > rapid && !begin => Return::Clear(clear),
+        (None, _) if begin => Return::Begin,
+        _ => Return::Clearance,
+    };
+    Ok((rapid, return_to))
 }
 
 /// Depth of the pecks but the first, and of the first where it differs, mm. Of more than one number behind a word the
@@ -336,7 +522,7 @@ impl Reader<'_> {
 fn pecks(s: &Statement, scale: f64) -> (Option<f64>, Option<f64>) {
     let least = |numbers: &[f64]| numbers.iter().copied().filter(|v| *v > 0.0).reduce(f64::min);
     let value = |words: &[&str]| words.iter().find_map(|w| s.after(w)).filter(|v| *v > 0.0);
-    let listed = PECK.iter().map(|w| listed(s, w)).find(|l| !l.is_empty()).unwrap_or_default();
+    let listed = PECK.iter().map(|w| listed_pecks(s, w)).find(|l| !l.is_empty()).unwrap_or_default();
     let (head, others) =
         listed.split_first().map_or((None, &[][..]), |(h, o)| (Some(*h).filter(|v| *v > 0.0), o));
     let next = NEXT_PECKS.iter().filter_map(|w| s.after(w)).collect::<Vec<_>>();
@@ -345,8 +531,8 @@ fn pecks(s: &Statement, scale: f64) -> (Option<f64>, Option<f64>) {
     (peck, first.map(|v| v * scale).filter(|v| Some(*v) != peck))
 }
 
-/// All numbers behind a word, but those that are depth, or peck, and feed before the unit of the feed.
-fn listed(s: &Statement, word: &str) -> Vec<f64> {
+/// All pecks behind a word, but what is depth, or peck, and feed before the unit of the feed.
+fn listed_pecks(s: &Statement, word: &str) -> Vec<f64> {
     let is_it = |w: &[Arg]| matches!(w, [Arg::Word(w), Arg::Number(_)] if w == word);
     let Some(at) = s.args.windows(2).position(is_it) else { return Vec::new() };
     let numbers = s.args[at + 1..].iter().map_while(|a| if let Arg::Number(v) = a { Some(*v) } else { None });
@@ -354,7 +540,16 @@ fn listed(s: &Statement, word: &str) -> Vec<f64> {
     if feed_before(s, at + 1 + numbers.len()).is_some() {
         numbers.pop();
     }
+    if !has_depth_before(s, at) {
+        numbers.truncate(1);
+    }
     numbers
+}
+
+/// Whether the depth stands before this place, or has its word: a further number behind is not the depth.
+fn has_depth_before(s: &Statement, at: usize) -> bool {
+    let named = DEPTH.iter().any(|w| s.after(w).is_some());
+    named || at > 1 && matches!(s.args.get(1), Some(Arg::Number(_)))
 }
 
 /// Whether every number has its word, as in the cycles of NX, Creo and ISO 4343; CATIA's have their order.
@@ -399,16 +594,21 @@ fn word_after<'s>(s: &'s Statement, wanted: &str) -> Option<&'s str> {
 /// Numbers that belong to no word, or stand behind the kind: depth, and clearance at the end.
 fn bare_numbers(s: &Statement) -> Vec<f64> {
     let mut out = Vec::new();
-    let mut taken = true;
+    let (mut taken, mut pecks) = (true, false);
     for (index, arg) in s.args.iter().enumerate() {
         match arg {
             Arg::Number(_) if feed_before(s, index + 1).is_some() => taken = false,
+            Arg::Number(_) if pecks => {}
             Arg::Number(v) if !taken || index == 1 => {
                 out.push(*v);
                 taken = false;
             }
             // The number behind a word is the word's.
             Arg::Number(_) => taken = false,
+            Arg::Word(word) => {
+                taken = feed_before(s, index).is_none();
+                pecks = index > 0 && PECK.contains(&word.as_str()) && has_depth_before(s, index);
+            }
             _ => taken = feed_before(s, index).is_none(),
         }
     }

@@ -101,10 +101,15 @@ impl Reader<'_> {
             self.begin_operation();
         }
         if self.state.rapid {
+            self.state.cycle_cut = None;
+            self.rapid_in_cycle(to);
             self.rapid_to(to);
         } else if self.state.cycle.is_some() {
             self.hole(to);
         } else {
+            if self.state.cycle_cut.is_some() {
+                self.behind_cycle();
+            }
             self.cut_to(to);
         }
     }
@@ -127,6 +132,7 @@ impl Reader<'_> {
         self.state.rapid = false;
         self.emit(RecordKind::Rapid(to));
         self.state.at = Some(to);
+        self.state.hole = None;
         self.state.sure = true;
     }
 
@@ -154,6 +160,7 @@ impl Reader<'_> {
             self.emit(RecordKind::Linear(to));
         }
         self.state.at = Some(to);
+        self.state.hole = None;
     }
 
     /// What a cut needs is there and in the CL data; what is missing is reported once.
@@ -245,7 +252,8 @@ impl Reader<'_> {
             [z] => [0.0, 0.0, z],
             _ => return self.complain(&codes::BAD_RECORD, "GODLTA takes 3 numbers".to_owned()),
         };
-        match self.state.at {
+        // Over a hole it counts from the hole's point.
+        match self.state.hole.or(self.state.at) {
             Some(p) => {
                 let scale = self.state.scale;
                 self.point_to(Point3::new(p.x + by[0] * scale, p.y + by[1] * scale, p.z + by[2] * scale));

@@ -123,7 +123,7 @@ impl Reader<'_> {
     fn spindl(&mut self, s: &Statement) {
         let words: Vec<&str> = s.words().collect();
         if words.iter().any(|w| SPINDLE_OFF.contains(w)) {
-            self.leave_cycle();
+            self.cut_cycle();
             self.state.spindle = Some(Spindle::Off);
             self.flush_tool_if_waiting();
             self.state.spindle_recorded = true;
@@ -140,6 +140,11 @@ impl Reader<'_> {
             Some(v) => self.speed(v, &words).map(|rpm| s.after("MAXRPM").map_or(rpm, |most| rpm.min(most))),
             None => self.state.last_speed.map(|(rpm, _)| rpm),
         };
+        let surface = words.iter().any(|w| matches!(*w, "SFM" | "SMM"));
+        if surface && value.is_some() && self.current_diameter().is_none() {
+            let message = "a surface speed needs the cutter's diameter: put CUTTER before SPINDL";
+            return self.complain(&codes::BAD_RECORD, message.to_owned());
+        }
         let Some(rpm) = speed.filter(|r| *r > 0.0 && r.is_finite()) else {
             return self.complain(&codes::BAD_RECORD, "SPINDL takes a speed greater than 0".to_owned());
         };
@@ -282,8 +287,9 @@ impl Reader<'_> {
         }
     }
 
-    fn current_diameter(&self) -> Option<f64> {
-        let loaded = self.state.loaded.map(|t| self.tools[t].diameter);
+    pub(super) fn current_diameter(&self) -> Option<f64> {
+        // The one that is changed out says nothing of the next.
+        let loaded = self.state.loaded.filter(|_| self.state.load.is_none()).map(|t| self.tools[t].diameter);
         self.state.tool.diameter().or(loaded).filter(|d| *d > 0.0)
     }
 }

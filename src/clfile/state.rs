@@ -51,6 +51,16 @@ pub(super) struct State {
     pub cycle: Option<Asked>,
     /// A cycle is in force that could not be understood: its holes are no cuts either.
     pub cycle_failed: bool,
+    /// The one before, for `CYCLE/ ON`.
+    pub cycle_before: Option<Asked>,
+    /// What ended a cycle in place of `CYCLE/ OFF`, until what follows tells that no hole is meant.
+    pub cycle_cut: Option<Span>,
+    /// Surface of the cycle's last hole.
+    pub drilled: Option<f64>,
+    /// Height of the first rapid move since then.
+    pub rapid_in_cycle: Option<(f64, Span)>,
+    /// Point of the hole over which the tool is.
+    pub hole: Option<Point3>,
     pub nurbs: Option<Spans>,
     pub frame: Option<[f64; 12]>,
     /// Points are in the part's system, not in the operation's.
@@ -101,6 +111,11 @@ impl State {
             axes_of_planes: false,
             cycle: None,
             cycle_failed: false,
+            cycle_before: None,
+            cycle_cut: None,
+            drilled: None,
+            rapid_in_cycle: None,
+            hole: None,
             nurbs: None,
             frame: None,
             world: false,

@@ -1,5 +1,6 @@
 //! Reading CL files, each producer in its own style.
 
+mod cycles;
 mod fast;
 mod producers;
 mod vocabulary;

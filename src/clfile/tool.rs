@@ -31,7 +31,7 @@ pub(super) struct Load {
 }
 
 /// Words of a tool change with the number of an offset in the control.
-pub(super) const OFFSETS: &[&str] = &["ADJUST", "OSETNO", "ZOFF"];
+pub(super) const OFFSETS: &[&str] = &["ADJUST", "OSETNO", "ZOFF", "OFFSET", "OFSTNO"];
 
 /// How far the tip of a cone may be off the tool's axis, in diameters.
 const CONE: f64 = 0.01;
@@ -126,6 +126,7 @@ impl Reader<'_> {
     /// `TOOL PATH/ operation, TOOL, tool`.
     pub(super) fn tool_path(&mut self, text: &str) {
         self.state.complete = false;
+        self.state.cycle_cut = None;
         let parts: Vec<&str> = text.split(',').map(str::trim).collect();
         let word = parts.iter().rposition(|p| p.eq_ignore_ascii_case("TOOL")).unwrap_or(parts.len());
         let joined = |parts: &[&str]| parts.join(",");
@@ -168,14 +169,16 @@ impl Reader<'_> {
             }
             return;
         }
-        for word in OFFSETS {
-            if let (Some(offset), Some(number)) = (s.after(word), number)
-                && offset != 0.0
-                && offset != f64::from(number)
-            {
+        let named = OFFSETS.iter().filter_map(|word| Some((format!("{word}, "), s.after(word)?)));
+        // tool, pocket, length, offset of the length, offset of the diameter: as the posts of Autodesk write it
+        let numbers = if s.only_numbers() { s.numbers() } else { Vec::new() };
+        let placed = numbers.iter().skip(3).take(2).map(|offset| ("offset ".to_owned(), *offset));
+        for (word, offset) in named.chain(placed) {
+            if number.is_some_and(|number| offset != 0.0 && offset != f64::from(number)) {
                 let message = format!(
-                    "{} with {word}, {offset} cannot be carried out: the offsets used are those of the tool's own number, {number}",
-                    s.major()
+                    "{} with {word}{offset} cannot be carried out: the offsets used are those of the tool's own number, {}",
+                    s.major(),
+                    number.unwrap_or_default()
                 );
                 self.soften(&codes::NOT_CARRIED_OUT, message, None);
             }
@@ -208,7 +211,7 @@ impl Reader<'_> {
             // The cutter is its own, the name is not.
             self.state.tool.name = None;
         }
-        self.leave_cycle();
+        self.cut_cycle();
         self.state.load = Some(Load { number, words: String::new(), span: self.span });
     }
 

@@ -35,7 +35,7 @@ impl Planner<'_> {
 
     pub(super) fn hole(&mut self, point: Point3, origin: Handle<Origin>) {
         let Some(drilling) = &self.state.drilling else { return };
-        let (mut asked, open) = (drilling.asked, drilling.open);
+        let (mut asked, open, fed) = (drilling.asked, drilling.open, drilling.asked.cycle.feed);
         if asked.own_feed || matches!(asked.cycle.kind, CycleKind::Tap { .. }) {
             if !self.turns("a hole", origin) {
                 return;
@@ -44,7 +44,7 @@ impl Planner<'_> {
             let Some(ready) = self.ready("a hole", None, origin) else { return };
             asked.cycle.feed = ready.feed;
         }
-        if open != Some(point.z) {
+        if open != Some(point.z) || fed != asked.cycle.feed {
             self.close_cycle(origin);
             let level = point.z + asked.return_to.unwrap_or(asked.cycle.clearance);
             match self.state.height {

@@ -77,10 +77,12 @@ impl Events<'_> {
         let level = self.writer.table.words[Slot::Z as usize].style;
         let distance = Style { plus: false, ..level };
         let mm = |mm: f64| number::steps(mm / grid.unit.in_mm(), grid.linear_decimals);
-        let (pitch, shift) = match cycle.kind {
-            CycleKind::Tap { pitch, .. } => (mm(pitch), None),
-            CycleKind::BoreOrient { shift } => (None, mm(shift)),
-            _ => (None, None),
+        let shift = if let CycleKind::BoreOrient { shift } = cycle.kind { mm(shift) } else { None };
+        let pitch = match cycle.kind {
+            CycleKind::Tap { pitch, .. } => {
+                fine(pitch / grid.unit.in_mm(), grid.linear_decimals, &distance).unwrap_or_default()
+            }
+            _ => String::new(),
         };
         let whole = cycle.clearance - cycle.bottom;
         let pecks = matches!(cycle.kind, CycleKind::Deep | CycleKind::ChipBreak);
@@ -111,7 +113,7 @@ impl Events<'_> {
                 .filter(|p| *p > 0)
                 .map_or_else(String::new, |p| ((whole + p - 1) / p).max(1).to_string()),
             shift: optional(shift),
-            pitch: optional(pitch),
+            pitch,
             dwell: dwell.map_or_else(String::new, |steps| spelled(steps, &dwell_style)),
             feed: spelled(feed, &self.writer.table.feeds[mode].style),
             retract: match cycle.retract {
@@ -122,6 +124,18 @@ impl Events<'_> {
         });
         Some(Value::from(Serde(context)))
     }
+}
+
+/// A pitch in a word's spelling: with up to five decimals, where it needs them, since it adds up over the whole thread (32
+/// threads an inch are 0.03125).
+fn fine(value: f64, least: u8, style: &Style) -> Option<String> {
+    const FINEST: u8 = 5;
+    let mut decimals = least.max(FINEST);
+    let mut steps = number::steps(value, decimals)?;
+    while decimals > least && steps % 10 == 0 {
+        (steps, decimals) = (steps / 10, decimals - 1);
+    }
+    Some(spelled(steps, &Style { decimals, ..*style }))
 }
 
 /// A number in a word's spelling, without its prefix.

@@ -161,11 +161,22 @@ fn unknown_key(name: &str, span: Span, keys: &[Key], path: &str) -> Diagnostic {
         .at("unknown key");
     match did_you_mean(name, keys.iter().map(|k| k.name)) {
         Some(near) => error.help(format!("did you mean `{near}`?")),
-        None => {
-            let names: Vec<&str> = keys.iter().map(|k| k.name).collect();
-            error.help(format!("its keys are {}", names.join(", ")))
-        }
+        None => match tables_with(name).as_slice() {
+            [] => {
+                let names: Vec<&str> = keys.iter().map(|k| k.name).collect();
+                error.help(format!("its keys are {}", names.join(", ")))
+            }
+            tables => error.help(format!("`{name}` is a key of {}", tables.join(", "))),
+        },
     }
+}
+
+/// Tables of a post file that have a key.
+fn tables_with(name: &str) -> Vec<String> {
+    ROOT.iter()
+        .filter(|table| matches!(table.shape, Shape::Table(keys) if keys.iter().any(|k| k.name == name)))
+        .map(|table| format!("[{}]", table.name))
+        .collect()
 }
 
 fn check(entry: &Entry, shape: Shape, path: &str, errors: &mut Vec<Diagnostic>) {

@@ -22,6 +22,7 @@ impl Analyser<'_> {
         if matches!(kind, CycleKind::Deep | CycleKind::ChipBreak) && peck.is_none() {
             return self.lacks(m, "DEEP and BRKCHP need the depth of a peck", "add it: `STEP, 4`");
         }
+        self.words_of_other_cycles(m, kind);
         let return_to = m.number("return").filter(|r| *r > clearance);
         let retract = if return_to.is_some() { RetractTo::Initial } else { RetractTo::Clearance };
         let dwell = m.number("dwell").filter(|s| *s > 0.0);
@@ -63,6 +64,23 @@ impl Analyser<'_> {
             }
             _ => CycleKind::Drill,
         })
+    }
+
+    /// What the kind of cycle does not do is not left out in silence.
+    fn words_of_other_cycles(&mut self, m: &Matched, kind: CycleKind) {
+        let pecks = matches!(kind, CycleKind::Deep | CycleKind::ChipBreak);
+        let tap = matches!(kind, CycleKind::Tap { .. });
+        let kind = m.word("kind").unwrap_or_default();
+        for (slot, word, fits, whose) in [
+            ("peck", "STEP", pecks, "DEEP and BRKCHP have pecks"),
+            ("pitch", "PITCH", tap, "TAP has a pitch"),
+            ("hand", "LEFT", tap, "TAP has a hand"),
+        ] {
+            if let (Some(found), false) = (m.get(slot), fits) {
+                let message = format!("{kind} and {word} exclude each other: {whose}");
+                self.report(Diagnostic::new(&codes::WORDS_EXCLUDE, found.span, message));
+            }
+        }
     }
 
     fn lacks(&mut self, m: &Matched, message: &str, help: &str) {

@@ -6,7 +6,7 @@ use super::{Case, Happening};
 use crate::cl::RecordKind;
 use crate::diag::codes::verification as codes;
 use crate::readback::EventKind;
-use crate::target::BlockKind;
+use crate::target::{Block, BlockKind};
 
 /// Checks everything that happens beside moves.
 pub(super) fn all(case: &Case<'_>) -> Vec<Finding> {
@@ -24,8 +24,10 @@ fn asked(case: &Case<'_>) -> Vec<Finding> {
             RecordKind::Dwell(seconds) => dwell(*seconds, happenings),
             RecordKind::Stop => stop(false, happenings),
             RecordKind::OptionalStop => {
-                let lowered = case.block_of_record(index).and_then(|b| case.target.blocks.get(b));
-                stop(matches!(lowered.map(|b| &b.kind), Some(BlockKind::OptionalStop)), happenings)
+                // The end of a cycle may stand before it.
+                let of_it = |b: &&Block| b.record.is_some_and(|r| r as usize == index);
+                let mut lowered = case.target.blocks.iter().filter(of_it);
+                stop(lowered.any(|b| matches!(b.kind, BlockKind::OptionalStop)), happenings)
             }
             _ => None,
         };

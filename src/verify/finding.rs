@@ -140,7 +140,7 @@ pub(super) fn of_control(trace: &Trace, lines: &Lines) -> Vec<Finding> {
             match f.unknown_code() {
                 Some(name) => finding.help(format!(
                     "where the machine has it and it neither moves nor stops anything, its post says `{name}=nothing` behind \
-                     `control` (docs/readers.md)"
+                     `control` in `[post]` (docs/readers.md)"
                 )),
                 None => finding,
             }

@@ -131,6 +131,8 @@ const EXAMPLES: &[(&str, &[&str])] = &[
         &[
             "LOADTL/ 4, ADJUST, 4, LENGTH, 120\nRAPID\nGOTO/ 1, 1, 1",
             "LOADTL/ 4, OSETNO, 4\nRAPID\nGOTO/ 1, 1, 1",
+            "LOADTL/ 4, OFFSET, 4\nRAPID\nGOTO/ 1, 1, 1",
+            "LOADTL/ 4, OFSTNO, 4\nRAPID\nGOTO/ 1, 1, 1",
             "LOADTL/ 4, ZOFF, 4, SPINDL, 70, MILL\nRAPID\nGOTO/ 1, 1, 1",
         ],
     ),

@@ -48,6 +48,11 @@ fn unknown_keys_are_shown_with_what_was_probably_meant() {
             "E0703 `decimal` [words.y] has no key `decimal` did you mean `decimals`?",
         ]
     );
+    // A key of another table.
+    assert_eq!(
+        complaints("inherits = \"fanuc\"\ncontrol = \"fanuc M60=nothing\"\n"),
+        ["E0703 `control` a post file has no key `control` `control` is a key of [post]"]
+    );
 }
 
 #[test]
