@@ -103,7 +103,7 @@ pub(super) fn recognise(name: &str, text: &str) -> Option<Producer> {
         "as" => Some(by_signs().unwrap_or(Producer::Ncl)),
         "aptsource" | "catnc" => Some(by_signs().unwrap_or(Producer::Catia)),
         "cl" => Some(by_signs().or_else(|| prefixed(text)).unwrap_or(Producer::Plain)),
-        _ => by_signs().or_else(|| prefixed(text)),
+        _ => by_signs().or_else(|| prefixed(text)).or_else(|| modes(text)),
     }
 }
 
@@ -124,6 +124,12 @@ fn signs(text: &str) -> Option<Producer> {
 
 fn starts(line: &str, sign: &str) -> bool {
     line.get(..sign.len()).is_some_and(|l| l.eq_ignore_ascii_case(sign))
+}
+
+/// `MODE/ MILL`, which no program of the language has.
+fn modes(text: &str) -> Option<Producer> {
+    let mode = |line: &str| starts(line, "MODE/MILL") || starts(line, "MODE/ MILL");
+    head(text).lines().map(str::trim_start).any(mode).then_some(Producer::Plain)
 }
 
 /// Records with the number of the input line before them, `N12 , GOTO/ …`.

@@ -1,5 +1,5 @@
-//! The files as codespan-reporting sees them: whole, or, where a line concerned is very long, only the lines
-//! concerned and of those only the part around the labels.
+//! The files as codespan-reporting sees them: whole, or, where a line concerned is very long or holds what would control a
+//! terminal, only the lines concerned and of those only the part around the labels.
 
 use std::collections::BTreeMap;
 
@@ -47,8 +47,11 @@ impl<'a> Excerpts<'a> {
         let clipped = by_file.into_iter().filter_map(|(id, labels)| {
             let file = sources.file(labels.first()?.span.file);
             let lines = lines_concerned(file, &labels);
-            let long = lines.keys().any(|&l| line_range(file, l).len() > LONG_LINE);
-            long.then(|| (id, clip(file, &lines)))
+            let apart = |line: usize| {
+                let range = line_range(file, line);
+                range.len() > LONG_LINE || file.text.get(range).is_some_and(|t| t.contains(controls))
+            };
+            lines.keys().any(|&line| apart(line)).then(|| (id, clip(file, &lines)))
         });
         Excerpts { sources, clipped: clipped.collect() }
     }
@@ -100,10 +103,24 @@ fn clip(file: &SourceFile, lines: &BTreeMap<usize, usize>) -> Clipped {
         let to = floor(&file.text, (from + WINDOW).min(whole.end)).max(from);
         let column = file.text.get(whole.start..from).map_or(1, |t| t.chars().count() + 1);
         clipped.lines.push(Line { number, source: from..to, start: clipped.text.len(), column });
-        clipped.text.push_str(file.text.get(from..to).unwrap_or(""));
+        clipped.text.extend(file.text.get(from..to).unwrap_or("").chars().map(shown));
         clipped.text.push('\n');
     }
     clipped
+}
+
+/// Whether a terminal may take a character for a command.
+pub(super) fn controls(c: char) -> bool {
+    c.is_control() && c != '\t'
+}
+
+/// A character as it is shown; one that is put in its place has as many bytes.
+fn shown(c: char) -> char {
+    match c {
+        c if !controls(c) => c,
+        c if c.is_ascii() => '?',
+        _ => '¿',
+    }
 }
 
 fn line_of(file: &SourceFile, byte: usize) -> usize {

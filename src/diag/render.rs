@@ -4,7 +4,7 @@ use codespan_reporting::diagnostic as codespan;
 use codespan_reporting::term::{self, StylesWriter, termcolor};
 use serde::Serialize;
 
-use super::excerpt::{Excerpts, snapped};
+use super::excerpt::{Excerpts, controls, snapped};
 use super::{Diagnostic, Label, Severity};
 use crate::source::{SourceFile, SourceMap, Span};
 
@@ -46,13 +46,13 @@ fn human(diagnostic: &Diagnostic, sources: &SourceMap, color: bool) -> Option<St
     let secondary = diagnostic.labels.iter().map(|l| (codespan::LabelStyle::Secondary, l));
     let labels = primary.chain(secondary).filter_map(|(style, label)| {
         let range = excerpts.range(label.span)?;
-        Some(codespan::Label::new(style, label.span.file.0, range).with_message(&label.message))
+        Some(codespan::Label::new(style, label.span.file.0, range).with_message(printable(&label.message)))
     });
-    let notes = diagnostic.notes.iter().map(|n| hanging("note: ", n));
-    let help = diagnostic.help.iter().map(|h| hanging("help: ", h));
+    let notes = diagnostic.notes.iter().map(|n| hanging("note: ", &printable(n)));
+    let help = diagnostic.help.iter().map(|h| hanging("help: ", &printable(h)));
     let message = codespan::Diagnostic::new(codespan_severity(diagnostic.severity))
         .with_code(diagnostic.code.id)
-        .with_message(&diagnostic.message)
+        .with_message(printable(&diagnostic.message))
         .with_labels(labels.collect())
         .with_notes(notes.chain(help).collect());
     let config = term::Config::default();
@@ -64,6 +64,12 @@ fn human(diagnostic: &Diagnostic, sources: &SourceMap, color: bool) -> Option<St
     let mut writer = StylesWriter::new(&mut ansi, &styles);
     term::emit_to_write_style(&mut writer, &config, &excerpts, &message).ok()?;
     String::from_utf8(ansi.into_inner()).ok()
+}
+
+/// A text as a terminal may have it: what a file holds must not control it.
+fn printable(text: &str) -> String {
+    let shown = |c: char| if controls(c) && c != '\n' { char::REPLACEMENT_CHARACTER } else { c };
+    text.chars().map(shown).collect()
 }
 
 /// A text of several lines, the later ones indented below the first.
@@ -86,7 +92,7 @@ fn short(diagnostic: &Diagnostic, sources: &SourceMap) -> String {
         format!("{}:{line}:{column}: ", file.name)
     });
     let word = severity_word(diagnostic.severity);
-    let message = diagnostic.message.replace('\n', " ");
+    let message = printable(&diagnostic.message.replace('\n', " "));
     format!("{place}{word}[{}]: {message}\n", diagnostic.code.id)
 }
 
@@ -203,6 +209,19 @@ mod tests {
             render(&diagnostic, &sources, Format::Short, true),
             "a.apt:2:9: error[E0101]: expected a comma\n"
         );
+    }
+
+    #[test]
+    fn what_a_file_holds_does_not_control_the_terminal() {
+        let (sources, mut diagnostic) = sample("GOTO/ 1\u{1b}[31m\u{9b}31m\0 2\n", 18, 19);
+        diagnostic.message = "no record from `\u{1b}[31m` on".to_owned();
+        for format in [Format::Human, Format::Short] {
+            let text = render(&diagnostic, &sources, format, false);
+            assert!(text.chars().all(|c| c == '\n' || !c.is_control()), "{text:?}");
+            assert!(text.contains("a.apt:1:"), "{text}");
+        }
+        let colored = render(&diagnostic, &sources, Format::Human, true);
+        assert!(!colored.contains("1\u{1b}[31m") && !colored.contains('\u{9b}'), "{colored:?}");
     }
 
     #[test]

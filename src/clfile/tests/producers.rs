@@ -25,6 +25,7 @@ fn files_are_recognised_by_name_and_by_content() {
     assert_eq!(recognise("a.aptsource", "$$ CATIA APT VERSION 1.0\n$$*CATIA0\n"), Some(Producer::Catia));
     assert_eq!(recognise("a.apt", "PARTNO X\nAUTOPS\nINDIRV/1,0,0\n"), Some(Producer::Catia));
     assert_eq!(recognise("a.txt", "N10 , CUTTER/ 10\nN11 , GOTO/ 1,2,3\n"), Some(Producer::Ncl));
+    assert_eq!(recognise("a.apt", "MACHIN/X\nMODE/MILL\nPARTNO/'1'\n"), Some(Producer::Plain));
     assert_eq!(recognise("a.apt", "T1 = CUTTER/ FLAT, 16\nLOADTL/ T1\n"), None);
 }
 
