@@ -6,7 +6,7 @@ use super::{Case, Happening};
 use crate::cl::RecordKind;
 use crate::diag::codes::verification as codes;
 use crate::readback::EventKind;
-use crate::target::{Block, BlockKind};
+use crate::target::BlockKind;
 
 /// Checks everything that happens beside moves.
 pub(super) fn all(case: &Case<'_>) -> Vec<Finding> {
@@ -25,9 +25,8 @@ fn asked(case: &Case<'_>) -> Vec<Finding> {
             RecordKind::Stop => stop(false, happenings),
             RecordKind::OptionalStop => {
                 // The end of a cycle may stand before it.
-                let of_it = |b: &&Block| b.record.is_some_and(|r| r as usize == index);
-                let mut lowered = case.target.blocks.iter().filter(of_it);
-                stop(lowered.any(|b| matches!(b.kind, BlockKind::OptionalStop)), happenings)
+                let mut lowered = case.blocks_of_record(index);
+                stop(lowered.any(|(_, b)| matches!(b.kind, BlockKind::OptionalStop)), happenings)
             }
             _ => None,
         };

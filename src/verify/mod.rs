@@ -28,7 +28,7 @@ use crate::cl::Cl;
 use crate::diag::Sink;
 use crate::ir::Origin;
 use crate::readback::{self, EventKind, MachineSetup, Rotary, Trace, TraceMove};
-use crate::target::{BlockKind, TargetProgram};
+use crate::target::{Block, BlockKind, TargetProgram};
 
 mod certificate;
 mod circles;
@@ -161,8 +161,12 @@ impl<'a> Case<'a> {
     }
     /// First block of a CL record.
     fn block_of_record(&self, record: usize) -> Option<usize> {
-        let is = |b: &crate::target::Block| b.record.is_some_and(|r| r as usize == record);
-        self.target.blocks.iter().position(is)
+        self.blocks_of_record(record).next().map(|(index, _)| index)
+    }
+    /// Blocks of a CL record, with their indices.
+    fn blocks_of_record(&self, record: usize) -> impl Iterator<Item = (usize, &Block)> {
+        let own = move |b: &Block| b.record.is_some_and(|r| r as usize == record);
+        self.target.blocks.iter().enumerate().filter(move |(_, b)| own(b))
     }
 
     fn context(&self, block: Option<usize>) -> Context {

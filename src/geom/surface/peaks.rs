@@ -47,7 +47,7 @@ impl Peaks {
         (((x - self.low[axis]) / self.cell).max(0.0) as usize).min(self.counts[axis] - 1)
     }
 
-    /// Whether a cutter with its reference point here certainly has a point of the surface in it, or under it.
+    /// Whether a cutter with its reference point here, endless upwards, certainly has a point of the surface in it.
     #[must_use]
     pub fn reach_into(&self, cutter: &Cutter, reference: Point3) -> bool {
         let end = reference.z - cutter.corner();
