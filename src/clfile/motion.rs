@@ -99,6 +99,8 @@ impl Reader<'_> {
             // Where a new tool is nobody knows.
             self.flush_tool();
             self.begin_operation();
+        } else if self.state.tool.unseen && self.state.loaded.is_some() {
+            self.see_cutter();
         }
         if self.state.rapid {
             self.state.cycle_cut = None;

@@ -3,6 +3,7 @@
 use super::grammar::{Arg, Statement};
 use super::reader::Reader;
 use crate::cl::RecordKind;
+use crate::diag::Diagnostic;
 use crate::diag::codes::foreign as codes;
 use crate::ir::{Coolant, Feed, Gear, Spindle};
 
@@ -135,7 +136,6 @@ impl Reader<'_> {
             return self.soften(&codes::NOT_CARRIED_OUT, message, None);
         }
         let value = first_number_not_after(s, &["RANGE", "MAXRPM"]);
-        let clockwise = !words.contains(&"CCLW");
         let speed = match value {
             Some(v) => self.speed(v, &words).map(|rpm| s.after("MAXRPM").map_or(rpm, |most| rpm.min(most))),
             None => self.state.last_speed.map(|(rpm, _)| rpm),
@@ -148,15 +148,27 @@ impl Reader<'_> {
         let Some(rpm) = speed.filter(|r| *r > 0.0 && r.is_finite()) else {
             return self.complain(&codes::BAD_RECORD, "SPINDL takes a speed greater than 0".to_owned());
         };
-        let clockwise = if value.is_none() && !words.contains(&"CLW") && !words.contains(&"CCLW") {
-            self.state.last_speed.is_none_or(|(_, c)| c)
-        } else {
-            clockwise
-        };
+        let clockwise = self.sense(&words);
         if value.is_some() || words.contains(&"RANGE") {
             self.state.range = gear_range(s);
         }
         self.turn_at(rpm, clockwise);
+    }
+
+    /// Whether the spindle turns clockwise: as the words say, or as was said last.
+    pub(super) fn sense(&mut self, words: &[&str]) -> bool {
+        if words.contains(&"CLW") || words.contains(&"CCLW") {
+            self.state.sense_of_tool = true;
+            return !words.contains(&"CCLW");
+        }
+        let kept = self.state.last_speed.is_none_or(|(_, clockwise)| clockwise);
+        if !kept && !self.state.sense_of_tool {
+            self.state.sense_of_tool = true;
+            let message = "the spindle turns counter-clockwise, as was said for the tool before";
+            let help = "write CLW or CCLW with the speed of this tool";
+            self.tell(Diagnostic::new(&codes::SENSE_KEPT, self.span, message).help(help));
+        }
+        kept
     }
 
     /// The spindle is to turn so from the next move on.
@@ -260,7 +272,7 @@ impl Reader<'_> {
             self.state.compensation_told = true;
             let message =
                 "the path is written as the points say, without the control's own compensation (G41, G42)";
-            let diagnostic = crate::diag::Diagnostic::new(&codes::NO_COMPENSATION, self.span, message);
+            let diagnostic = Diagnostic::new(&codes::NO_COMPENSATION, self.span, message);
             self.tell(diagnostic.help(codes::NO_COMPENSATION_HELP));
         }
     }

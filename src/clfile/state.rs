@@ -39,6 +39,8 @@ pub(super) struct State {
     pub range: crate::ir::Gear,
     /// Speed for `SPINDL/ ON`.
     pub last_speed: Option<(f64, bool)>,
+    /// The sense of the spindle was said for the tool that is there or called.
+    pub sense_of_tool: bool,
     pub band: Band,
     pub tool: Data,
     pub load: Option<Load>,
@@ -102,6 +104,7 @@ impl State {
             coolant: None,
             range: crate::ir::Gear::Any,
             last_speed: None,
+            sense_of_tool: false,
             band: Band { into: BAND, out: BAND },
             tool: Data::default(),
             load: None,

@@ -2,6 +2,7 @@
 
 use super::grammar::{Arg, Statement};
 use super::reader::Reader;
+use crate::cl::print::number as number_of;
 use crate::cl::{Guard, Operation, RecordKind};
 use crate::diag::codes::foreign as codes;
 use crate::ir::{CutterKind, Gear, Tool};
@@ -19,6 +20,8 @@ pub(super) struct Data {
     drill: bool,
     /// It was stated for a tool that has not been changed in yet.
     fresh: bool,
+    /// It was stated since the tool moved last.
+    pub unseen: bool,
 }
 
 /// A tool change that waits for what the file says of the tool.
@@ -33,6 +36,8 @@ pub(super) struct Load {
 /// Words of a tool change with the number of an offset in the control.
 pub(super) const OFFSETS: &[&str] = &["ADJUST", "OSETNO", "ZOFF", "OFFSET", "OFSTNO"];
 
+/// Sizes of cutters that differ by less are one, mm.
+const SAME_SIZE: f64 = 1e-3;
 /// How far the tip of a cone may be off the tool's axis, in diameters.
 const CONE: f64 = 0.01;
 /// Point angle of a drill that is none, degrees.
@@ -102,6 +107,7 @@ impl Reader<'_> {
         self.state.tool.drill = is_cone(cutter);
         self.state.tool.stated = true;
         self.state.tool.fresh = true;
+        self.state.tool.unseen = true;
     }
 
     /// `TLDATA/ MILL, d, r, length, taper, tip` or `DRILL, MILL, d, r, length, point angle, …`.
@@ -136,6 +142,7 @@ impl Reader<'_> {
         let same = self.state.tool.name.as_deref() == Some(tool) || self.named_behind(tool);
         if !same {
             self.state.tool = Data { name: Some(tool.to_owned()), ..Data::default() };
+            self.state.sense_of_tool = false;
             self.state.load = Some(Load { number: None, words: String::new(), span: self.span });
         }
     }
@@ -194,7 +201,8 @@ impl Reader<'_> {
         }
         if let Some(rpm) = s.after("SPINDL").filter(|rpm| *rpm > 0.0 && rpm.is_finite()) {
             self.state.range = Gear::Any;
-            self.turn_at(rpm, true);
+            let clockwise = self.sense(&s.words().collect::<Vec<_>>());
+            self.turn_at(rpm, clockwise);
         }
     }
 
@@ -212,6 +220,7 @@ impl Reader<'_> {
             self.state.tool.name = None;
         }
         self.cut_cycle();
+        self.state.sense_of_tool = false;
         self.state.load = Some(Load { number, words: String::new(), span: self.span });
     }
 
@@ -225,6 +234,7 @@ impl Reader<'_> {
         };
         let span = core::mem::replace(&mut self.span, load.span);
         self.state.tool.fresh = false;
+        self.state.tool.unseen = false;
         let data = self.state.tool.clone();
         let [d, r, e, f, a, b, h] = data.cutter;
         let kind = match (r, d) {
@@ -242,7 +252,11 @@ impl Reader<'_> {
         let origin = self.here();
         let known =
             self.tools.iter().find(|(_, t)| t.number == load.number && t.name == name && t.diameter == d);
-        let tool = match known.map(|(handle, _)| handle) {
+        let known = known.map(|(handle, _)| handle);
+        if known.is_none() {
+            self.other_cutter(load.number, d, r);
+        }
+        let tool = match known {
             Some(tool) => tool,
             None => self.tools.push(Tool {
                 kind,
@@ -269,6 +283,39 @@ impl Reader<'_> {
         self.span = span;
         self.forget_origin();
         self.go_to_first();
+    }
+
+    /// A cutter that is said of the tool that is there already.
+    #[cold]
+    pub(super) fn see_cutter(&mut self) {
+        self.state.tool.unseen = false;
+        let number = self.state.loaded.and_then(|tool| self.tools[tool].number);
+        let [diameter, corner, ..] = self.state.tool.cutter;
+        self.other_cutter(number, diameter, corner);
+    }
+
+    /// A number that has been that of another cutter: in the machine it is one tool.
+    fn other_cutter(&mut self, number: Option<u32>, diameter: f64, corner: f64) {
+        let differ = |a: f64, b: f64| (a - b).abs() > SAME_SIZE;
+        let other = self.tools.iter().map(|(_, t)| t).find(|t| {
+            number.is_some()
+                && t.number == number
+                && t.diameter > 0.0
+                && (differ(t.diameter, diameter) || differ(t.corner, corner))
+        });
+        let (Some(other), Some(number), true) = (other, number, diameter > 0.0) else { return };
+        let scale = self.state.scale;
+        let size = |d: f64, r: f64| {
+            let corner =
+                if r > 0.0 { format!(" and corner {}", number_of(r / scale)) } else { String::new() };
+            format!("diameter {}{corner}", number_of(d / scale))
+        };
+        let message = format!(
+            "tool {number} has {}, and had {} before: in the machine it is one tool",
+            size(diameter, corner),
+            size(other.diameter, other.corner)
+        );
+        self.complain(&codes::OTHER_CUTTER, message);
     }
 
     /// The point at which the file wants the first tool: given before its change.

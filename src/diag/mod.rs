@@ -46,6 +46,32 @@ impl Code {
     }
 }
 
+/// Characters of the longest number that messages print with all its digits.
+const LONGEST_NUMBER: usize = 24;
+
+/// A message whose numbers of very many digits have an exponent: nobody counts the 301 digits of 1e300.
+fn short_numbers(message: String) -> String {
+    let in_number = |c: char| c.is_ascii_digit() || c == '.';
+    if !message.split(|c| !in_number(c)).any(|number| number.len() > LONGEST_NUMBER) {
+        return message;
+    }
+    let mut out = String::with_capacity(message.len());
+    let mut rest = message.as_str();
+    while let Some(at) = rest.find(in_number) {
+        let (before, number) = rest.split_at(at);
+        let (number, after) = number.split_at(number.find(|c| !in_number(c)).unwrap_or(number.len()));
+        out.push_str(before);
+        match number.parse::<f64>() {
+            Ok(value) if number.len() > LONGEST_NUMBER && value.is_finite() => {
+                out.push_str(&format!("{value:e}"))
+            }
+            _ => out.push_str(number),
+        }
+        rest = after;
+    }
+    out + rest
+}
+
 /// A place with a remark.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Label {
@@ -81,7 +107,7 @@ impl Diagnostic {
         Diagnostic {
             code,
             severity: code.severity(),
-            message: message.into(),
+            message: short_numbers(message.into()),
             primary: Some(Label { span, message: String::new() }),
             labels: Vec::new(),
             notes: Vec::new(),
@@ -94,7 +120,7 @@ impl Diagnostic {
         Diagnostic {
             code,
             severity: code.severity(),
-            message: message.into(),
+            message: short_numbers(message.into()),
             primary: None,
             labels: Vec::new(),
             notes: Vec::new(),
@@ -118,7 +144,7 @@ impl Diagnostic {
     /// Adds a fact.
     #[must_use]
     pub fn note(mut self, note: impl Into<String>) -> Self {
-        self.notes.push(note.into());
+        self.notes.push(short_numbers(note.into()));
         self
     }
     /// Adds advice.
@@ -202,6 +228,15 @@ fn edit_distance(a: &str, b: &str) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn numbers_of_very_many_digits_have_an_exponent() {
+        assert_eq!(short_numbers(format!("a feed of {} mm/min.", 1e300)), "a feed of 1e300 mm/min.");
+        assert_eq!(short_numbers(format!("Ä {:.3}", -2.5e40)), "Ä -2.5e40");
+        assert_eq!(short_numbers(format!("{}, {}", 1e-40, 12.5)), "1e-40, 12.5");
+        let plain = "X 12.5, version 1.2.3 … 0.1234567890123456789012 mm";
+        assert_eq!(short_numbers(plain.to_owned()), plain);
+    }
 
     #[test]
     fn nearest_word_is_offered_only_when_it_is_a_slip() {

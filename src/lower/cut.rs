@@ -213,7 +213,9 @@ impl Emitter<'_> {
         let fit = &fitted.fit;
         let sense = if self.capabilities.rotary.is_some_and(|r| r.reversed) { -1 } else { 1 };
         let here = self.at[3].unwrap_or(0) * sense;
-        let shift = rotary::shift(fit.start[1], here, &grid);
+        let angles = fit.primitives.iter().filter_map(path::end).map(|end| end[1]);
+        let ends = angles.fold((fit.start[1], fit.start[1]), |(a, b), v| (a.min(v), b.max(v)));
+        let shift = rotary::shift(fit.start[1], ends, here, self.capabilities.ranges.rotary, &grid);
         let place =
             |[radius, angle]: [i64; 2]| Position { x: radius, y: 0, z: level, r: (angle + shift) * sense };
         let start = place(fit.start);

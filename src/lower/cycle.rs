@@ -9,8 +9,7 @@ use super::feed;
 use crate::cl::{Cycle, CycleKind, RetractTo};
 use crate::diag::codes;
 use crate::geom::Point3;
-use crate::ir::CycleName;
-use crate::ir::{Feed, Spindle};
+use crate::ir::{CycleName, Feed, Spindle, at_origin};
 use crate::target::{self, BlockKind, FeedWord, Position, axes};
 
 /// How far a peck is backed out to break the chip, and how far above the last peck rapid ends, mm.
@@ -28,6 +27,8 @@ pub(super) struct Active {
     open: Option<usize>,
     /// It has been said that its moves are written out.
     told: bool,
+    /// It has been said that the spindle turns against its hand.
+    hand_told: bool,
 }
 
 /// Levels of a hole, Z steps.
@@ -45,7 +46,8 @@ impl Emitter<'_> {
     /// A cycle comes into force; nothing moves.
     pub(super) fn begin_cycle(&mut self, cycle: &Cycle) {
         self.end_cycle();
-        self.cycle = Some(Active { cycle: *cycle, initial: self.at[2], open: None, told: false });
+        self.cycle =
+            Some(Active { cycle: *cycle, initial: self.at[2], open: None, told: false, hand_told: false });
     }
 
     /// The cycle ends.
@@ -72,12 +74,33 @@ impl Emitter<'_> {
         let initial = active.initial.unwrap_or(clearance).max(clearance);
         let hole = Hole { x, y, surface, bottom, clearance, initial };
         let Some(feed) = self.cycle_feed(&cycle) else { return };
+        self.turns_with_tap(&cycle);
         if self.keeps(&cycle) {
             self.keep(active, hole, feed);
         } else {
             self.expand(&cycle, hole, feed);
         }
         self.exact = Some(Point3::new(point.x, point.y, self.mm(self.at[2].unwrap_or(hole.initial))));
+    }
+
+    /// A tap goes in the way that its spindle turns, or not at all.
+    fn turns_with_tap(&mut self, cycle: &Cycle) {
+        let (CycleKind::Tap { left, .. }, Some(Spindle::On { clockwise, .. })) = (cycle.kind, self.spinning)
+        else {
+            return;
+        };
+        if left != clockwise || self.cycle.as_ref().is_none_or(|active| active.hand_told) {
+            return;
+        }
+        if let Some(active) = &mut self.cycle {
+            active.hand_told = true;
+        }
+        let (hand, sense, other) =
+            if left { ("left", "clockwise", "CCLW") } else { ("right", "counter-clockwise", "CLW") };
+        let message = format!("the tap is {hand}-hand, and the spindle turns {sense}");
+        let help = format!("put `SPINDL/ …, {other}` before it");
+        let code = &codes::lowering::TAP_HAND;
+        self.complain_of(at_origin(code, &self.cl.origins, self.origin, message).help(help));
     }
 
     /// Whether the control has the cycle, with its dwell if there is one, and nothing turns under it.

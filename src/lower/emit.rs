@@ -424,7 +424,8 @@ impl<'a> Emitter<'a> {
         if self.capabilities.rotary.is_none() {
             return 0;
         }
-        rotary::nearest_turn(self.at[3].unwrap_or(0), &self.capabilities.grid)
+        let most = self.capabilities.ranges.rotary;
+        rotary::nearest_turn_within(self.at[3].unwrap_or(0), most, &self.capabilities.grid)
     }
 
     /// Z first when it rises or is not known, last when it falls or comes from its upper end.

@@ -16,9 +16,20 @@ pub(super) fn nearest_turn(value: i64, grid: &Grid) -> i64 {
     (value + turn / 2).div_euclid(turn) * turn
 }
 
-/// What to add to the angles of a chain that starts at `start`, so that it starts as near as possible to `at`.
-pub(super) fn shift(start: i64, at: i64, grid: &Grid) -> i64 {
-    nearest_turn(at - start, grid)
+/// The same, but no farther from 0 than `most`, where that is a full turn or more.
+pub(super) fn nearest_turn_within(value: i64, most: i64, grid: &Grid) -> i64 {
+    let turns = most / full_turn(grid) * full_turn(grid);
+    nearest_turn(value, grid).clamp(-turns, turns)
+}
+
+/// What to add to the angles of a chain that starts at `start` and runs from `least` to `greatest`, so that it starts as near
+/// as possible to `at` and no angle is farther from 0 than `most`: a table that has turned as far as its word counts turns
+/// back. A chain that fits nowhere starts nearest to `at`.
+pub(super) fn shift(start: i64, (least, greatest): (i64, i64), at: i64, most: i64, grid: &Grid) -> i64 {
+    let turn = full_turn(grid);
+    let (low, high) = (-(most + least).div_euclid(turn) * turn, (most - greatest).div_euclid(turn) * turn);
+    let near = nearest_turn(at - start, grid);
+    if low <= high { near.clamp(low, high) } else { near }
 }
 
 /// Length of the Archimedean spiral between two polar positions (radius and angle in steps), by Gauss-Legendre
@@ -91,6 +102,22 @@ mod tests {
     fn turns_are_found_both_ways() {
         assert_eq!(nearest_turn(359_000, &grid()), 360_000);
         assert_eq!(nearest_turn(-181_000, &grid()), -360_000);
-        assert_eq!(shift(350_000, 5_000, &grid()), -360_000);
+        assert_eq!(shift(350_000, (350_000, 710_000), 5_000, 99_999_999, &grid()), -360_000);
+    }
+    #[test]
+    fn a_table_that_has_turned_as_far_as_its_word_counts_turns_back() {
+        let grid = grid();
+        let most = 99_999_999;
+        let shift = |at| shift(1_000, (1_000, 361_000), at, most, &grid);
+        assert_eq!(shift(99_361_000), 99_360_000);
+        assert_eq!(shift(99_721_000), 99_360_000, "one turn back");
+        assert_eq!(shift(-99_999_000), -99_720_000);
+        let whole = |start, ends, at| super::shift(start, ends, at, 360_000, &grid);
+        assert_eq!(whole(90_000, (90_000, 450_000), 90_000), -360_000);
+        assert_eq!(whole(0, (0, 360_000), 360_000), 0);
+        assert_eq!(whole(0, (-100_000, 900_000), 700_000), 720_000, "it fits nowhere");
+        assert_eq!(nearest_turn_within(99_999_000, most, &grid), 99_720_000);
+        assert_eq!(nearest_turn_within(350_000, 360_000, &grid), 360_000);
+        assert_eq!(nearest_turn_within(350_000, 100_000, &grid), 0);
     }
 }

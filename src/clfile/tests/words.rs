@@ -32,6 +32,12 @@ fn nothing_is_dropped_in_silence() {
             "CUTTER/ 6\nLOADTL/ 2\nSPINDL/ 900\nRAPID\nGOTO/ 1, 1, 9\nLOADTL/ 3\nSPINDL/ 100, SFM\nCUTTER/ 9",
             "E1002",
         ),
+        (
+            "CUTTER/ 6\nLOADTL/ 2\nRAPID\nGOTO/ 1, 1, 9\nLOADTL/ 3\nRAPID\nGOTO/ 1, 1, 9\nCUTTER/ 6, 1\nLOADTL/ 2\nRAPID\nGOTO/ 1, 1, 9",
+            "W1020",
+        ),
+        ("CUTTER/ 6\nLOADTL/ 2\nRAPID\nGOTO/ 1, 1, 9\nLOADTL/ 2\nCUTTER/ 8\nGOTO/ 1, 1, 9", "W1020"),
+        ("SPINDL/ 9, CCLW\nLOADTL/ 2\nSPINDL/ 90\nRAPID\nGOTO/ 1, 1, 9", "W1021"),
         ("LOADTL/ 3, OFFSET, 13", "E1003"),
         ("LOADTL/ 3, 0, 50.5, 13", "E1003"),
         ("LOADTL/ 3, 0, 50.5, 3, 13", "E1003"),
@@ -47,6 +53,14 @@ fn nothing_is_dropped_in_silence() {
     ] {
         let (_, codes) = read(&framed(record));
         assert_eq!(codes, [code], "{record}");
+    }
+    for silent in [
+        "CUTTER/ 6\nLOADTL/ 2\nRAPID\nGOTO/ 1, 1, 9\nCUTTER/ 6\nGOTO/ 1, 2, 9\nLOADTL/ 3\nCUTTER/ 8\nRAPID\nGOTO/ 1, 1, 9",
+        "LOADTL/ 2\nRAPID\nGOTO/ 1, 1, 9\nCUTTER/ 6\nGOTO/ 1, 1, 5",
+        "SPINDL/ 9, CCLW\nSPINDL/ 90\nGOTO/ 1, 1, 9",
+        "SPINDL/ 9, CCLW\nLOADTL/ 2\nSPINDL/ 90, CLW\nRAPID\nGOTO/ 1, 1, 9\nSPINDL/ 95",
+    ] {
+        assert_eq!(read(&framed(silent)).1, [""; 0], "{silent}");
     }
     let (_, codes) = read("LOADTL/1\nSPINDL/1000,RPM,CLW\nFEDRAT/200,MMPM\nGOTO/0,0,50\nFINI\n");
     assert_eq!(codes, ["W1012"]);
@@ -103,6 +117,8 @@ fn feeds_and_speeds_in_either_order_and_in_their_own_units() {
     };
     assert_eq!(speed("SPINDL/ RPM, 900, CCLW"), Some(Spindle::on(900.0, false)));
     assert_eq!(speed("SPINDL/ 900, RPM"), Some(Spindle::on(900.0, true)));
+    assert_eq!(speed("SPINDL/ 800, CCLW\nSPINDL/ 900, RPM"), Some(Spindle::on(900.0, false)));
+    assert_eq!(speed("SPINDL/ 800, CCLW\nSPINDL/ 900, CLW\nSPINDL/ 700"), Some(Spindle::on(700.0, true)));
     let Some(Spindle::On { rpm, .. }) = speed("SPINDL/ 47.1238898, SMM, CLW") else { panic!("no speed") };
     assert!((rpm - 1500.0).abs() < 1e-3, "{rpm}");
     assert_eq!(speed("SPINDL/ SMM, 300, MAXRPM, 6000"), Some(Spindle::on(6000.0, true)));

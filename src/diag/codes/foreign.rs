@@ -135,6 +135,20 @@ pub const CUT_OFF: Code = Code {
     page: include_str!("../../../docs/diagnostics/W1019.md"),
 };
 
+/// one tool number has two cutters.
+pub const OTHER_CUTTER: Code = Code {
+    id: "W1020",
+    title: "one tool number has two cutters",
+    page: include_str!("../../../docs/diagnostics/W1020.md"),
+};
+
+/// the spindle turns counter-clockwise as for the tool before.
+pub const SENSE_KEPT: Code = Code {
+    id: "W1021",
+    title: "the spindle turns counter-clockwise as for the tool before",
+    page: include_str!("../../../docs/diagnostics/W1021.md"),
+};
+
 /// All codes of this area.
 pub const ALL: &[&Code] = &[
     &UNKNOWN_RECORD,
@@ -156,4 +170,6 @@ pub const ALL: &[&Code] = &[
     &UNIT_ASSUMED,
     &NO_MOTION,
     &CUT_OFF,
+    &OTHER_CUTTER,
+    &SENSE_KEPT,
 ];

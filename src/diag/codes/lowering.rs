@@ -135,6 +135,13 @@ pub const NO_THROUGH: Code = Code {
     page: include_str!("../../../docs/diagnostics/E0609.md"),
 };
 
+/// the spindle turns against the hand of the tap.
+pub const TAP_HAND: Code = Code {
+    id: "E0610",
+    title: "the spindle turns against the hand of the tap",
+    page: include_str!("../../../docs/diagnostics/E0610.md"),
+};
+
 /// All codes of this area.
 pub const ALL: &[&Code] = &[
     &CANNOT_FIT,
@@ -156,4 +163,5 @@ pub const ALL: &[&Code] = &[
     &NO_CYCLE,
     &ONE_PECK,
     &NO_THROUGH,
+    &TAP_HAND,
 ];
