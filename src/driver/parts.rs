@@ -7,12 +7,10 @@ use std::sync::mpsc::{Receiver, sync_channel};
 
 use super::targets::{self, Machines, Ready};
 use super::{Options, Output, Shelf, shelve};
-use crate::arena::Handle;
-use crate::cl::{Cl, RecordKind};
+use crate::cl::Cl;
 use crate::clfile::{self, Reader};
 use crate::diag::Sink;
-use crate::ir::Tool;
-use crate::lower::stream::Stream as Lowering;
+use crate::lower::stream::{Changes, Stream as Lowering};
 use crate::post::Parts;
 use crate::readback::MachineSetup;
 use crate::source::{FileId, FileProvider, SourceMap, Span};
@@ -43,7 +41,7 @@ impl<'a> ClFile<'a> {
 struct Survey {
     /// The last chunk, with the tools and operations of the whole file and no records.
     cl: Cl,
-    loads: Vec<Handle<Tool>>,
+    changes: Changes,
     places: Vec<Span>,
 }
 
@@ -86,14 +84,10 @@ pub(super) fn make(
 
 fn survey(file: &ClFile<'_>, sink: &mut Sink) -> Survey {
     let mut reader = file.reader();
-    let mut survey = Survey { cl: Cl::default(), loads: Vec::new(), places: Vec::new() };
+    let mut survey = Survey { cl: Cl::default(), changes: Changes::default(), places: Vec::new() };
     while let Some(mut cl) = reader.chunk(PART) {
         for record in cl.records.drain(..) {
-            if let RecordKind::LoadTool(tool) = record.kind
-                && !survey.loads.contains(&tool)
-            {
-                survey.loads.push(tool);
-            }
+            survey.changes.record(&record);
         }
         survey.cl = cl;
     }
@@ -113,11 +107,10 @@ struct Part {
 /// One program: written on this thread, proven on another; on this one too where it is a worker of the pool, because the
 /// proof asks the pool and a worker that waits for it does not work.
 fn one(file: &ClFile<'_>, survey: &Survey, ready: &Ready, sink: &mut Sink) -> Option<Proven> {
-    let loads = survey.loads.as_slice();
-    let mut lowering = Lowering::new(ready.capabilities.clone(), loads, &survey.cl.tools);
+    let mut lowering = Lowering::new(ready.capabilities.clone(), &survey.changes, &survey.cl.tools);
     // The machine is the same for all parts; a program without blocks tells it.
     let setup = stream::setup(&lowering.chunk(&Cl::default(), false, &mut Sink::default()));
-    let mut lowering = Lowering::new(ready.capabilities.clone(), loads, &survey.cl.tools);
+    let mut lowering = Lowering::new(ready.capabilities.clone(), &survey.changes, &survey.cl.tools);
     let mut prover = Prover::new(ready, &setup);
     let written = if rayon::current_thread_index().is_some() {
         write(file, survey, ready, &mut lowering, &mut |part| prover.part(&part), sink)

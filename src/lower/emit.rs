@@ -57,6 +57,7 @@ pub(super) struct Carry {
     exact: Option<Point3>,
     spinning: Option<Spindle>,
     parked: bool,
+    changes: usize,
     pecks_told: Option<(f64, f64)>,
     curves_told: Vec<Told>,
 }
@@ -109,6 +110,7 @@ impl Carry {
             exact: None,
             spinning: None,
             parked: false,
+            changes: 0,
             pecks_told: None,
             curves_told: Vec::new(),
         }
@@ -158,6 +160,8 @@ pub(super) struct Emitter<'a> {
     pub(super) spinning: Option<Spindle>,
     /// Z stands at its upper end since the last tool change.
     parked: bool,
+    /// Tool changes so far.
+    changes: usize,
     /// First and further peck that a message has told about.
     pub(super) pecks_told: Option<(f64, f64)>,
     /// Curves that became lines.
@@ -198,6 +202,7 @@ impl<'a> Emitter<'a> {
             exact: None,
             spinning: None,
             parked: false,
+            changes: 0,
             pecks_told: None,
             curves_told: Vec::new(),
         };
@@ -220,6 +225,7 @@ impl<'a> Emitter<'a> {
         self.exact = carry.exact;
         self.spinning = carry.spinning;
         self.parked = carry.parked;
+        self.changes = carry.changes;
         self.pecks_told = carry.pecks_told;
         self.curves_told = carry.curves_told;
     }
@@ -264,6 +270,7 @@ impl<'a> Emitter<'a> {
             exact: self.exact,
             spinning: self.spinning,
             parked: self.parked,
+            changes: self.changes,
             pecks_told: self.pecks_told,
             curves_told: self.curves_told,
         };
@@ -354,6 +361,8 @@ impl<'a> Emitter<'a> {
     }
 
     fn load_tool(&mut self, tool: Handle<crate::ir::Tool>) {
+        self.rise();
+        self.changes += 1;
         let index = self.tools.index(tool);
         self.event(BlockKind::ToolChange(index));
         (self.standing, self.dry) = (false, false);
@@ -365,6 +374,21 @@ impl<'a> Emitter<'a> {
         self.parked = self.capabilities.parks;
         self.exact = None;
         self.rpm = 0.0;
+    }
+
+    /// How high the program goes with the tool in the spindle, Z steps: clear of everything that it goes over.
+    fn height(&self) -> Option<i64> {
+        let height = self.tools.heights.get(self.changes.checked_sub(1)?)?;
+        let grid = &self.capabilities.grid;
+        number::steps(height / grid.unit.in_mm(), grid.linear_decimals)
+    }
+
+    /// Where a change does not take Z to its upper end, the cutter is taken as high as it has been before.
+    fn rise(&mut self) {
+        let (Some(z), Some(height)) = (self.at[2], self.height()) else { return };
+        if z < height && !self.capabilities.parks && !self.capabilities.whole_points {
+            self.rapid_axes(Position { z: height, ..self.here() }, axes::Z);
+        }
     }
 
     fn set_feed(&mut self, feed: Feed) {
@@ -428,19 +452,19 @@ impl<'a> Emitter<'a> {
         rotary::nearest_turn_within(self.at[3].unwrap_or(0), most, &self.capabilities.grid)
     }
 
-    /// Z first when it rises or is not known, last when it falls or comes from its upper end.
+    /// Z first when it rises or is not known, last when it falls or comes from its upper end. Where it is not known it goes as
+    /// high as the program goes with this tool before X and Y move.
     pub(super) fn rapid(&mut self, to: Position) {
         if self.capabilities.whole_points {
             return self.rapid_axes(to, axes::X | axes::Y | axes::Z | axes::ROTARY);
         }
         let rises = self.at[2].map_or(!self.parked, |z| to.z > z);
         if rises {
-            self.rapid_axes(to, axes::Z);
+            let first = if self.at[2].is_none() { self.height().map_or(to.z, |h| h.max(to.z)) } else { to.z };
+            self.rapid_axes(Position { z: first, ..to }, axes::Z);
         }
         self.rapid_plane(to);
-        if !rises {
-            self.rapid_axes(to, axes::Z);
-        }
+        self.rapid_axes(to, axes::Z);
         self.parked = false;
     }
 

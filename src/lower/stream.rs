@@ -1,8 +1,9 @@
 //! Lowering chunk by chunk, for CL data that are longer than memory should hold.
 
 use super::emit::{self, Carry};
+pub use super::tools::Changes;
 use super::tools::Tools;
-use crate::arena::{Arena, Handle};
+use crate::arena::Arena;
 use crate::cl::Cl;
 use crate::diag::Sink;
 use crate::ir::Tool;
@@ -16,10 +17,10 @@ pub struct Stream {
 }
 
 impl Stream {
-    /// For a program that changes in these tools in this order.
+    /// For a program with these tool changes.
     #[must_use]
-    pub fn new(capabilities: Capabilities, loads: &[Handle<Tool>], tools: &Arena<Tool>) -> Stream {
-        let tools = Tools::of_loads(loads.iter().copied(), tools);
+    pub fn new(capabilities: Capabilities, changes: &Changes, tools: &Arena<Tool>) -> Stream {
+        let tools = Tools::of_changes(changes, tools);
         Stream { capabilities, carry: Some(Err(tools)) }
     }
 

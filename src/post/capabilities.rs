@@ -44,7 +44,7 @@ impl Dialect {
             planes: self.planes(),
             cycles: self.cycles(|_| true),
             dwelling_cycles: self.cycles(|cycle| cycle.dwell),
-            parks: spec.tool_change.parks,
+            parks: spec.tool_change.parks_with(&options),
             whole_points: spec.modal.whole_points,
             max_sweep: Angle::degrees(spec.arcs.max_sweep).rad(),
             full_circle: match spec.arcs.full_circle {

@@ -409,6 +409,11 @@ const TOOL_CHANGE: &[Key] = &[
         "the change leaves Z at its upper end: the first rapid goes across before it goes down",
     ),
     key(
+        "parks-with",
+        Shape::Text,
+        "name of an option: the change parks only where that has a value; empty: always",
+    ),
+    key(
         "with-first-z",
         Shape::Text,
         "template of words that go into the first block that moves Z, before its own",

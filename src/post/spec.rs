@@ -460,9 +460,21 @@ pub struct Limits {
 #[allow(missing_docs)]
 pub struct ToolChange {
     pub parks: bool,
+    pub parks_with: String,
     pub with_first_z: String,
     pub order: Vec<String>,
     pub blocks: BTreeMap<String, String>,
+}
+
+impl ToolChange {
+    /// Whether a change leaves Z at its upper end, with these options.
+    #[must_use]
+    pub fn parks_with(&self, options: &BTreeMap<String, String>) -> bool {
+        let name = self.parks_with.as_str();
+        let value =
+            options.iter().find(|(option, _)| option.eq_ignore_ascii_case(name)).map(|(_, value)| value);
+        self.parks && (name.is_empty() || value.is_some_and(|value| !value.is_empty()))
+    }
 }
 
 #[derive(Debug, Clone, Deserialize)]
