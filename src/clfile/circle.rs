@@ -265,7 +265,9 @@ impl Reader<'_> {
     /// An arc that is known to be one, at feed.
     fn emit_arc(&mut self, pending: &Pending, to: Point3) {
         self.state.rapid = false;
-        self.pause_cycle();
+        if self.curve_in_cycle("an arc", to) {
+            return;
+        }
         self.make_sure();
         self.state.moved = true;
         let axis = pending.axis;

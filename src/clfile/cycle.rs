@@ -441,6 +441,20 @@ impl Reader<'_> {
         }
     }
 
+    /// Whether a curve to this point stands among the holes of a cycle, which is told: is its end a hole?
+    pub(super) fn curve_in_cycle(&mut self, what: &str, to: Point3) -> bool {
+        if self.state.cycle.is_none() {
+            return false;
+        }
+        let message = format!("{what} while a cycle is in force: whether its end is a hole is not known");
+        let help = "put CYCLE/ OFF before it, and the cycle again behind it";
+        self.tell(Diagnostic::new(&codes::BAD_CYCLE, self.span, message).help(help));
+        self.close_cycle();
+        self.state.cycle_failed = true;
+        self.state.at = Some(to);
+        true
+    }
+
     /// A move between holes; the cycle stays in force.
     pub(super) fn pause_cycle(&mut self) {
         self.close_cycle();

@@ -91,7 +91,9 @@ impl Reader<'_> {
             return;
         }
         self.state.rapid = false;
-        self.pause_cycle();
+        if self.curve_in_cycle("a curve", to) {
+            return;
+        }
         self.make_sure();
         self.state.moved = true;
         if self.ready() && spline.points().iter().any(|p| *p != to) {

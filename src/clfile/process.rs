@@ -31,7 +31,10 @@ pub(super) const COOLANTS: &[(&str, Coolant)] = &[
 /// Where it is needed; `--lenient` takes flood in its place.
 const THROUGH: Coolant = Coolant::Through { needed: true };
 /// Words that ask for compensation in the control, and that it ends.
-pub(super) const COMPENSATION: (&[&str], &[&str]) = (&["LEFT", "RIGHT", "ON"], &["OFF"]);
+pub(super) const COMPENSATION: (&[&str], &[&str]) = (&["LEFT", "RIGHT", "ON"], &["OFF", "NOMORE"]);
+/// Words that say more of it: its plane, its offset; compensation of the length is what every tool change has.
+pub(super) const OF_COMPENSATION: &[&str] =
+    &["XYPLAN", "YZPLAN", "ZXPLAN", "XAXIS", "YAXIS", "ADJUST", "OSETNO", "LENGTH", "NOW", "NEXT"];
 
 impl Reader<'_> {
     /// `-D SPINDL=…` and the like: what the file lacks.
@@ -267,7 +270,15 @@ impl Reader<'_> {
 
     /// Points are the cutter's centre; a control's own compensation on top is not written.
     fn cutcom(&mut self, s: &Statement) {
-        let on = COMPENSATION.0.iter().any(|w| s.has(w));
+        let known = |w: &&str| {
+            COMPENSATION.0.contains(w) || COMPENSATION.1.contains(w) || OF_COMPENSATION.contains(w)
+        };
+        if let Some(unknown) = s.words().find(|w| !known(w)) {
+            let message = format!("CUTCOM with {unknown} cannot be carried out");
+            return self.soften(&codes::NOT_CARRIED_OUT, message, None);
+        }
+        let ends = COMPENSATION.1.iter().any(|w| s.has(w)) || s.has("LENGTH");
+        let on = !ends && COMPENSATION.0.iter().any(|w| s.has(w));
         if on && !self.state.compensation_told {
             self.state.compensation_told = true;
             let message =

@@ -168,7 +168,16 @@ pub(super) fn minor_words() -> Vec<(&'static str, Vec<&'static str>)> {
         ("FEDRAT", feeds.chain(process::FEED_SILENT.iter().copied()).chain(["RAPID"]).collect()),
         ("SPINDL", process::SPEED_WORDS.iter().chain(process::SPINDLE_OFF).copied().collect()),
         ("COOLNT", process::COOLANTS.iter().map(|(w, _)| *w).collect()),
-        ("CUTCOM", process::COMPENSATION.0.iter().chain(process::COMPENSATION.1).copied().collect()),
+        (
+            "CUTCOM",
+            process::COMPENSATION
+                .0
+                .iter()
+                .chain(process::COMPENSATION.1)
+                .chain(process::OF_COMPENSATION)
+                .copied()
+                .collect(),
+        ),
         ("LOADTL", tool::OFFSETS.to_vec()),
         ("CYCLE", cycles.into_iter().flatten().chain(kinds).copied().collect()),
     ]

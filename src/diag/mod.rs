@@ -147,6 +147,12 @@ impl Diagnostic {
         self.notes.push(short_numbers(note.into()));
         self
     }
+    /// Adds another message of the same cause, where it says something else.
+    pub fn also(&mut self, message: String) {
+        if message != self.message && !self.notes.contains(&message) {
+            self.notes.push(message);
+        }
+    }
     /// Adds advice.
     #[must_use]
     pub fn help(mut self, help: impl Into<String>) -> Self {

@@ -14,7 +14,7 @@ use crate::syntax::{self, ast};
 use crate::target::TargetProgram;
 use crate::units::LengthUnit;
 use crate::verify::{Proven, Shortfall};
-use crate::{clfile, ir, plan, sema};
+use crate::{clfile, ir, plan, post, sema};
 
 mod parts;
 mod targets;
@@ -147,11 +147,35 @@ pub fn build_to(main: &str, files: &dyn FileProvider, options: &Options, shelf: 
         Err(error) => sink.push(unreadable(main, &error)),
     }
     build.inputs = files.names.into_inner().unwrap_or_else(PoisonError::into_inner);
-    build.diagnostics = in_source_order(sink.into_items());
+    build.diagnostics = once_for_all_posts(in_source_order(sink.into_items()), &build.sources);
     if let Some(file) = of_cl {
         build.diagnostics = clfile::told_once(file, core::mem::take(&mut build.diagnostics));
     }
     build
+}
+
+/// A mistake in `--post-set` is one mistake, however many posts it is given to: what others say of it are notes of the first.
+fn once_for_all_posts(diagnostics: Vec<Diagnostic>, sources: &SourceMap) -> Vec<Diagnostic> {
+    let mut places: Vec<(&'static str, &str, core::ops::Range<u32>)> = Vec::new();
+    let mut told: Vec<Diagnostic> = Vec::new();
+    let mut of_place: Vec<usize> = Vec::new();
+    for diagnostic in diagnostics {
+        let span = diagnostic.primary.as_ref().map(|label| label.span);
+        let Some(span) = span.filter(|span| post::is_override(span.file, sources)) else {
+            told.push(diagnostic);
+            continue;
+        };
+        let place = (diagnostic.code.id, &*sources.file(span.file).text, span.start..span.end);
+        match places.iter().position(|known| *known == place).and_then(|known| of_place.get(known)) {
+            Some(&first) => told[first].also(diagnostic.message),
+            None => {
+                places.push(place);
+                of_place.push(told.len());
+                told.push(diagnostic);
+            }
+        }
+    }
+    told
 }
 
 /// The main file; a CL file need not be UTF-8.

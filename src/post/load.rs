@@ -134,7 +134,7 @@ pub(super) fn is_own(dialect: &Dialect, file: FileId, sources: &SourceMap) -> bo
 }
 
 /// Whether a place is in an override.
-pub(super) fn is_override(file: FileId, sources: &SourceMap) -> bool {
+pub(crate) fn is_override(file: FileId, sources: &SourceMap) -> bool {
     builtin_file(file).is_none() && sources.file(file).name == OVERRIDES
 }
 

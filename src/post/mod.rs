@@ -43,6 +43,6 @@ pub use dialect::Dialect;
 pub use inspect::{Place, Setting};
 pub use json_schema::json_schema;
 pub use lint::lint;
-pub(crate) use load::override_key;
 pub use load::{builtin_names, builtin_text, load, load_with};
+pub(crate) use load::{is_override, override_key};
 pub use write::{Parts, Written, write};

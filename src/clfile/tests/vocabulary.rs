@@ -151,7 +151,17 @@ const EXAMPLES: &[(&str, &[&str])] = &[
     ("TOLER", &["TOLER/ 0.05\nCIRCLE/ 0, 0, 5, 0, 0, 1, 10\nGOTO/ 0, 10, 5"]),
     ("MULTAX", &["MULTAX/ ON\nGOTO/ 1, 1, 1, 0, 0, 1\nMULTAX/ OFF"]),
     ("TLAXIS", &["TLAXIS/ 0, 0, 1\nGOTO/ 1, 1, 1"]),
-    ("CUTCOM", &["CUTCOM/ LEFT, XYPLAN\nGOTO/ 1, 1, 1\nCUTCOM/ OFF", "CUTCOM/ RIGHT", "CUTCOM/ ON"]),
+    (
+        "CUTCOM",
+        &[
+            "CUTCOM/ LEFT, XYPLAN\nGOTO/ 1, 1, 1\nCUTCOM/ OFF",
+            "CUTCOM/ RIGHT",
+            "CUTCOM/ ON",
+            "CUTCOM/ ON, LENGTH, 3, NOW",
+            "CUTCOM/ LEFT, YZPLAN, ADJUST, 3, XAXIS, NEXT",
+            "CUTCOM/ RIGHT, ZXPLAN, OSETNO, 3, YAXIS\nCUTCOM/ NOMORE",
+        ],
+    ),
     ("MSYS", &["MSYS/ 0, 0, 0, 1, 0, 0, 0, 1, 0"]),
     ("CSYS", &["CSYS/ 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0"]),
     ("TRNTYP", &["TRNTYP/ WORLD, 0, 0, 0"]),

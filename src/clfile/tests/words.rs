@@ -46,6 +46,11 @@ fn nothing_is_dropped_in_silence() {
         ("CYCLE/ WOBBLE, FEDTO, 20, MMPM, 120, RAPTO, 2", "E1006"),
         ("NURBS/\nKNOT/ 0.5, 1.0\nCNTRL/ 1, 0, 0", "E1007"),
         ("CUTCOM/ LEFT, XYPLAN", "W1010"),
+        ("CUTCOM/ NORMDS", "E1003"),
+        (
+            "CYCLE/ DRILL, FEDTO, 9, MMPM, 50, RAPTO, 2\nGOTO/ 1, 1, 0\nCIRCLE/ 0, 1, 0, 0, 0, 1, 1\nGOTO/ -1, 1, 0\nGOTO/ 5, 1, 0",
+            "E1006",
+        ),
         ("TOOL PATH/FACE,TOOL,FACE_MILL\nSPINDL/500\nRAPID\nGOTO/1,1,1", "W1015"),
         ("CYCLE/ DRILL, FEDTO, 0, MMPM, 50, RAPTO, 2\nGOTO/ 1, 1, 0\nCYCLE/ OFF", "E1006"),
         ("CIRCLE/ 0, 0, 5, 0, 0, 1, 10\nGOTO/ 0, 10, 5, 1, 0, 0", "E1004"),

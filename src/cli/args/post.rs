@@ -28,7 +28,7 @@ impl PostSet {
 fn pair(given: &str) -> Result<(String, String), Diagnostic> {
     let bad = |what: &str| {
         Diagnostic::global(&codes::BAD_POST_SET, format!("--post-set {given} has no {what}"))
-            .help("write --post-set KEY=VALUE; `partwright post show NAME --resolved` lists the keys")
+            .help("write --post-set KEY=VALUE; `partwright post show NAME --resolved` lists the keys; an empty text is \"\"")
     };
     let (key, value) = given.split_once('=').ok_or_else(|| bad("value"))?;
     match (key.trim(), value.trim()) {
