@@ -83,13 +83,16 @@ impl Emitter<'_> {
         self.exact = Some(Point3::new(point.x, point.y, self.mm(self.at[2].unwrap_or(hole.initial))));
     }
 
-    /// A tap goes in the way that its spindle turns, or not at all.
+    /// A tap goes in the way that its spindle turns, or not at all. CL text says what it was told.
     fn turns_with_tap(&mut self, cycle: &Cycle) {
         let (CycleKind::Tap { left, .. }, Some(Spindle::On { clockwise, .. })) = (cycle.kind, self.spinning)
         else {
             return;
         };
-        if left != clockwise || self.cycle.as_ref().is_none_or(|active| active.hand_told) {
+        if left != clockwise
+            || self.capabilities.whole_points
+            || self.cycle.as_ref().is_none_or(|active| active.hand_told)
+        {
             return;
         }
         if let Some(active) = &mut self.cycle {
