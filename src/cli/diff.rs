@@ -11,7 +11,7 @@ use super::{Status, build, print};
 use crate::diag::Diagnostic;
 use crate::diag::codes::{command, tools as codes};
 use crate::golden::names;
-use crate::motion_diff::{self, Comparison, Tolerance, print as motion_print};
+use crate::motion_diff::{self, Comparison, Complaint, Tolerance, print as motion_print};
 use crate::post;
 use crate::readback::{MachineSetup, Rotary};
 use crate::source::SourceMap;
@@ -35,7 +35,7 @@ pub fn diff(args: &DiffArgs, messages: Messages) -> Result<Status, Diagnostic> {
     complain(&comparison, args, messages);
     print(&match args.format {
         TextOrJson::Json => serde_json::to_string_pretty(&comparison).unwrap_or_default() + "\n",
-        TextOrJson::Text => text(&comparison, args),
+        TextOrJson::Text => text(&comparison, [&a, &b], args),
     })?;
     Ok(match (comparison.is_executable(), comparison.is_same()) {
         (false, _) => Status::NotProven,
@@ -86,6 +86,9 @@ fn complain(comparison: &Comparison, args: &DiffArgs, messages: Messages) {
     }
 }
 
+/// Characters that are shown of a block.
+const SHOWN: usize = 60;
+
 /// Numbers of tools that are called by name stand above those that have one.
 const NAMED: u32 = 100_000_001;
 
@@ -102,14 +105,41 @@ fn tool_names(programs: [&[u8]; 2]) -> Vec<(String, u32)> {
     names.into_iter().zip(NAMED..).collect()
 }
 
-fn text(comparison: &Comparison, args: &DiffArgs) -> String {
+/// The blocks that the control complains of, as they are written, with their lines.
+fn not_followed(program: &[u8], faults: &[Complaint]) -> Vec<(u32, String)> {
+    let lines: BTreeSet<u32> = faults.iter().map(|fault| fault.line).collect();
+    let texts = (1u32..).zip(program.split(|b| *b == b'\n')).filter(|(line, _)| lines.contains(line));
+    texts.map(|(line, text)| (line, String::from_utf8_lossy(text).trim().to_owned())).collect()
+}
+
+/// Blocks that cannot be followed differ where their texts do: the first that does.
+fn written_otherwise(comparison: &Comparison, programs: [&[u8]; 2], names: [&str; 2]) -> Option<String> {
+    let [of_a, of_b] = &comparison.faults;
+    let (a, b) = (not_followed(programs[0], of_a), not_followed(programs[1], of_b));
+    let longest = a.len().max(b.len());
+    let (a, b) =
+        (0..longest).map(|i| (a.get(i), b.get(i))).find(|(a, b)| a.map(|a| &a.1) != b.map(|b| &b.1))?;
+    let shown = |block: Option<&(u32, String)>, name: &str| match block {
+        Some((line, text)) => {
+            let text: String = text.chars().filter(|c| !c.is_control()).take(SHOWN).collect();
+            format!("line {line} of {name} is `{text}`")
+        }
+        None => format!("{name} has none"),
+    };
+    Some(format!("of what cannot be followed, {}, and {}\n", shown(a, names[0]), shown(b, names[1])))
+}
+
+fn text(comparison: &Comparison, programs: [&[u8]; 2], args: &DiffArgs) -> String {
     let (a, b) = (args.a.to_string_lossy(), args.b.to_string_lossy());
     if !comparison.is_executable() {
         let [of_a, of_b] = comparison.faults.each_ref().map(Vec::len);
         let rest = motion_print::text(comparison, motion_print::Names { a: &a, b: &b });
         let rest = if rest.is_empty() { "what can be followed is the same\n".to_owned() } else { rest };
+        let otherwise = written_otherwise(comparison, programs, [&a, &b]);
+        let otherwise =
+            otherwise.unwrap_or_else(|| "what cannot be followed is written the same\n".to_owned());
         return format!(
-            "not compared as a whole: the control complains of {of_a} blocks of {a} and {of_b} of {b}\n{rest}"
+            "not compared as a whole: the control complains of {of_a} blocks of {a} and {of_b} of {b}\n{rest}{otherwise}"
         );
     }
     if comparison.is_same() {

@@ -166,8 +166,8 @@ fn once_for_all_posts(diagnostics: Vec<Diagnostic>, sources: &SourceMap) -> Vec<
             continue;
         };
         let place = (diagnostic.code.id, &*sources.file(span.file).text, span.start..span.end);
-        match places.iter().position(|known| *known == place).and_then(|known| of_place.get(known)) {
-            Some(&first) => told[first].also(diagnostic.message),
+        match places.iter().position(|known| *known == place).and_then(|known| of_place.get(known).copied()) {
+            Some(first) => told[first].also(diagnostic.message),
             None => {
                 places.push(place);
                 of_place.push(told.len());

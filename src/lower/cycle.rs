@@ -207,9 +207,16 @@ impl Emitter<'_> {
         let (name, post) = (cycle.kind.name().text(), &self.capabilities.name);
         let refused = matches!(cycle.kind, CycleKind::Tap { .. } | CycleKind::BoreOrient { .. });
         let (code, message) = if refused {
+            let with = if !self.capabilities.cycles.contains(&cycle.kind.name()) {
+                ""
+            } else if self.capabilities.rotary.is_some() {
+                " beside a rotary axis"
+            } else {
+                " with a dwell"
+            };
             (
                 &codes::lowering::NO_CYCLE,
-                format!("`{post}` has no cycle `{name}`, and no moves can stand for it"),
+                format!("`{post}` has no cycle `{name}`{with}, and no moves can stand for it"),
             )
         } else {
             (
