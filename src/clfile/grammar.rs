@@ -74,7 +74,7 @@ fn build(pair: Pair<'_, Rule>) -> Statement {
                 statement.word = (span.start(), span.end());
                 statement.majors = part.into_inner().map(|m| word(m.as_str())).collect();
             }
-            Rule::args => statement.args = part.into_inner().map(argument).collect(),
+            Rule::args => statement.args = part.into_inner().flat_map(arguments).collect(),
             _ => {}
         }
     }
@@ -83,6 +83,14 @@ fn build(pair: Pair<'_, Rule>) -> Statement {
         statement.args.clear();
     }
     statement
+}
+
+/// What stands between two commas; numbers with nothing but blanks between them are several: some systems leave commas out.
+fn arguments(pair: Pair<'_, Rule>) -> Vec<Arg> {
+    let numbers: Vec<Arg> =
+        pair.as_str().split_whitespace().map_while(|text| super::scan::number(text).map(Arg::Number)).collect();
+    let several = numbers.len() > 1 && numbers.len() == pair.as_str().split_whitespace().count();
+    if several { numbers } else { vec![argument(pair)] }
 }
 
 fn argument(pair: Pair<'_, Rule>) -> Arg {

@@ -11,6 +11,9 @@ use super::Analyser;
 use super::matched::{Matched, Typed};
 use super::process::Setting;
 
+/// How far the image of the axis of a hole may be off Z.
+const UPRIGHT: f64 = 1e-9;
+
 impl Analyser<'_> {
     /// The point of `FROM` or `GOTO`, mm.
     fn target(m: &Matched) -> Option<[f64; 3]> {
@@ -109,7 +112,28 @@ impl Analyser<'_> {
         self.state.position = Some(p);
         self.state.at_from = false;
         let to = self.transformed(p);
+        if self.state.cycle && !rapid {
+            self.hole_stands_upright(at);
+        }
         self.step(if self.state.cycle && !rapid { StepKind::Hole(to) } else { StepKind::Goto { to, rapid } });
+    }
+
+    /// A hole's axis is Z, and its depth counts along it: what `TRACUT` does to them is not carried out.
+    fn hole_stands_upright(&mut self, at: Span) {
+        let Some((map, since)) = self.state.transform.as_ref() else { return };
+        let axis = [map.0[0][2], map.0[1][2], map.0[2][2]];
+        let since = *since;
+        let off = axis.iter().zip([0.0, 0.0, 1.0]).map(|(a, z)| (a - z).abs()).fold(0.0, f64::max);
+        if off <= UPRIGHT || self.state.tilt_told == Some(since) {
+            return;
+        }
+        self.state.tilt_told = Some(since);
+        let message = "a hole under a TRACUT that tilts or scales its axis cannot be carried out yet";
+        self.report(
+            Diagnostic::new(&codes::NOT_YET, at, message)
+                .label(since, "the transformation begins here")
+                .help("write `TRACUT/ NOMORE` before it"),
+        );
     }
 
     /// A point of motion after `TRACUT`.

@@ -66,6 +66,8 @@ pub(super) struct State {
     pub cycle: bool,
     /// It has a feed of its own, or a pitch.
     pub cycle_feeds: bool,
+    /// The `TRACUT` that has been told to tilt holes.
+    pub tilt_told: Option<Span>,
     /// `CUTCOM` has had its warning.
     pub compensation_told: bool,
     /// `MULTAX/ ON`: points may have a tool axis.
@@ -109,6 +111,7 @@ impl Default for State {
             rapid: false,
             cycle: false,
             cycle_feeds: false,
+            tilt_told: None,
             compensation_told: false,
             multi_axis: false,
             axis_told: false,
