@@ -87,8 +87,11 @@ fn build(pair: Pair<'_, Rule>) -> Statement {
 
 /// What stands between two commas; numbers with nothing but blanks between them are several: some systems leave commas out.
 fn arguments(pair: Pair<'_, Rule>) -> Vec<Arg> {
-    let numbers: Vec<Arg> =
-        pair.as_str().split_whitespace().map_while(|text| super::scan::number(text).map(Arg::Number)).collect();
+    let numbers: Vec<Arg> = pair
+        .as_str()
+        .split_whitespace()
+        .map_while(|text| super::scan::number(text).map(Arg::Number))
+        .collect();
     let several = numbers.len() > 1 && numbers.len() == pair.as_str().split_whitespace().count();
     if several { numbers } else { vec![argument(pair)] }
 }

@@ -206,24 +206,19 @@ impl Emitter<'_> {
     fn expand(&mut self, cycle: &Cycle, hole: Hole, feed: FeedWord) {
         let (name, post) = (cycle.kind.name().text(), &self.capabilities.name);
         let refused = matches!(cycle.kind, CycleKind::Tap { .. } | CycleKind::BoreOrient { .. });
-        let (code, message) = if refused {
-            let with = if !self.capabilities.cycles.contains(&cycle.kind.name()) {
-                ""
-            } else if self.capabilities.rotary.is_some() {
-                " beside a rotary axis"
-            } else {
-                " with a dwell"
-            };
-            (
-                &codes::lowering::NO_CYCLE,
-                format!("`{post}` has no cycle `{name}`{with}, and no moves can stand for it"),
-            )
+        let with = if !self.capabilities.cycles.contains(&cycle.kind.name()) {
+            ""
+        } else if self.capabilities.rotary.is_some() {
+            " beside a rotary axis"
         } else {
-            (
-                &codes::lowering::CYCLE_EXPANDED,
-                format!("`{post}` has no cycle `{name}`: its moves are written out"),
-            )
+            " with a dwell"
         };
+        let (code, end) = if refused {
+            (&codes::lowering::NO_CYCLE, ", and no moves can stand for it")
+        } else {
+            (&codes::lowering::CYCLE_EXPANDED, ": its moves are written out")
+        };
+        let message = format!("`{post}` has no cycle `{name}`{with}{end}");
         // Once for all holes of the cycle.
         if let Some(active) = self.cycle.as_mut().filter(|a| !a.told) {
             active.told = true;

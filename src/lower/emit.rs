@@ -365,11 +365,8 @@ impl<'a> Emitter<'a> {
         self.changes += 1;
         let index = self.tools.index(tool);
         self.event(BlockKind::ToolChange(index));
-        (self.standing, self.dry) = (false, false);
-        // A post may stop the coolant for the change.
-        if self.coolant != Coolant::Off {
-            self.event(BlockKind::Coolant(self.coolant));
-        }
+        // A post may stop the coolant for the change: it is said again when the new tool moves.
+        (self.standing, self.dry) = (false, self.coolant != Coolant::Off);
         self.forget();
         self.parked = self.capabilities.parks;
         self.exact = None;

@@ -82,7 +82,7 @@ impl Emitter<'_> {
         (self.standing, self.dry) = (self.capabilities.restart, self.capabilities.restart);
     }
 
-    /// What a stop of the program may have stopped is said again before something moves.
+    /// What a stop of the program or a tool change may have stopped is said again before something moves.
     pub(super) fn restart(&mut self, next: &RecordKind) {
         if !(self.standing || self.dry) || !(next.moves() || matches!(next, RecordKind::BeginCycle(_))) {
             return;
