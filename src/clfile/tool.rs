@@ -250,8 +250,10 @@ impl Reader<'_> {
             (None, None) => "TOOL".to_owned(),
         };
         let origin = self.here();
-        let known =
-            self.tools.iter().find(|(_, t)| t.number == load.number && t.name == name && t.diameter == d);
+        let known = self
+            .tools
+            .iter()
+            .find(|(_, t)| t.number == load.number && t.name == name && t.diameter == d && t.corner == r);
         let known = known.map(|(handle, _)| handle);
         if known.is_none() {
             self.other_cutter(load.number, d, r);
