@@ -272,7 +272,7 @@ fn rapid_moves_that_go_at_f_say_theirs() {
 fn tool_changes() {
     let table: &[(&str, &[&str])] = &[
         ("apt-cl", &["CUTTER/16, 0", "LOADTL/1", "SPINDL/1200, CLW", "RAPID", "GOTO/0, 0, 5"]),
-        ("centroid", &["(T1, FLAT, D=16)", "T1 M6", "G43 H1", "S1200 M3", "G0 X0. Y0. Z5."]),
+        ("centroid", &["(T1, FLAT, D=16)", "G53 G0 Z0.", "T1 M6", "G43 H1", "S1200 M3", "G0 X0. Y0. Z5."]),
         ("fanuc", &["G91 G28 Z0.", "G90", "(T1, FLAT, D=16)", "T1 M6", "S1200 M3", "G43 H1 G0 X0. Y0. Z5."]),
         ("grbl", &["(T1, flat, D=16)", "S1200 M3", "G0 X0 Y0 Z5"]),
         ("grblhal", &["(T1, flat, D=16)", "S1200 M3", "G0 X0 Y0 Z5"]),
@@ -282,7 +282,7 @@ fn tool_changes() {
             &["; T1, flat, D=16", "L Z+0 R0 FMAX M91", "TOOL CALL 1 Z S1200", "M3", "L X+0 Y+0 Z+5 R0 FMAX"],
         ),
         ("linuxcnc", &["(T1, flat, D=16)", "T1 M6", "G43 H1", "S1200 M3", "G0 X0 Y0 Z5"]),
-        ("mach3", &["(T1, flat, D=16)", "T1 M6", "G43 H1", "S1200 M3", "G0 X0 Y0 Z5"]),
+        ("mach3", &["(T1, flat, D=16)", "G53 G0 Z0", "T1 M6", "G43 H1", "S1200 M3", "G0 X0 Y0 Z5"]),
         ("marlin", &["; T1, flat, D=16", "M3 S1200", "G0 X0 Y0 Z5 F3000"]),
         ("mazak", &["G91 G28 Z0.", "G90", "(T1, FLAT, D=16)", "T1 M6", "S1200 M3", "G43 H1 G0 X0. Y0. Z5."]),
         (
