@@ -320,7 +320,7 @@ fn back(build: &mut Build, files: &dyn FileProvider, options: &Options, shelf: &
 }
 
 /// The programs of all posts; where a proof finds that too much is left between passes, and nothing else is wrong, planned
-/// again with passes that lie closer there. Rounds are few; what the last one says holds.
+/// again with passes that lie closer there. Rounds are few, and end where they do not help; what the last one says holds.
 fn closer(
     ir: &ir::Program,
     (mut cl, planned): (Cl, &mut Sink),
@@ -336,7 +336,9 @@ fn closer(
         }
         let place = |s: &Shortfall| (s.operation, Place { at: s.at, reach: s.reach, share: s.share });
         let places: Vec<(usize, Place)> = made.short.iter().map(place).collect();
-        closer.add(&places, round >= plan::closer::EVERYWHERE);
+        if !closer.add(&places, round >= plan::closer::EVERYWHERE) {
+            break;
+        }
         let mut told = Sink::default();
         let Some(next) = plan::plan_closer(ir, &closer, &mut told) else { break };
         *planned = told;

@@ -12,6 +12,12 @@ use crate::geom::Point3;
 const FADES: f64 = 2.0;
 /// Shares are not taken below this.
 const LEAST: f64 = 0.05;
+/// Where a round has not helped, so much more is asked for in the next …
+const HARDER: f64 = 0.6;
+/// … and after so many such rounds in a row nothing helps.
+const IDLE: u32 = 3;
+/// Places of two rounds are the same within this share of their reach.
+const SAME: f64 = 0.5;
 
 /// A place where cusps must be lower.
 #[derive(Debug, Clone, Copy)]
@@ -24,10 +30,20 @@ pub struct Place {
     pub share: f64,
 }
 
+/// A place that the proof of one round found, and how many rounds in a row have not helped there.
+#[derive(Debug, Clone, Copy)]
+struct Found {
+    operation: usize,
+    place: Place,
+    idle: u32,
+}
+
 /// Such places, operation by operation.
 #[derive(Debug, Clone, Default)]
 pub struct Closer {
     places: Vec<(usize, Place)>,
+    /// Those of the last round.
+    last: Vec<Found>,
     marches: BTreeMap<usize, March>,
 }
 
@@ -36,7 +52,7 @@ impl Closer {
     #[must_use]
     pub fn after(cl: &Cl) -> Closer {
         let march = |(k, operation): (usize, &Operation)| Some((k, operation.guard.surface.as_ref()?.march?));
-        Closer { places: Vec::new(), marches: cl.operations.iter().enumerate().filter_map(march).collect() }
+        Closer { marches: cl.operations.iter().enumerate().filter_map(march).collect(), ..Closer::default() }
     }
 
     /// How the bent passes of an operation follow one another, where that is known.
@@ -45,12 +61,15 @@ impl Closer {
     }
 
     /// Asks for lower cusps in an operation (by its index) at some places: `share` counts on top of what was asked before.
-    /// `everywhere`: by the same share all over the operation's surface, too.
-    pub fn add(&mut self, short: &[(usize, Place)], everywhere: bool) {
+    /// `everywhere`: by the same share all over the operation's surface, too. Whether that may help: not where rounds in a row
+    /// have left a place as it was.
+    pub fn add(&mut self, short: &[(usize, Place)], everywhere: bool) -> bool {
         let mut asked = Vec::new();
-        for (operation, place) in short {
+        let found: Vec<Found> = short.iter().map(|short| self.found(short)).collect();
+        for Found { operation, place, idle } in &found {
             let before = self.of(*operation);
-            let lower = |share: f64| (place.share * share).max(LEAST);
+            let harder = (0..*idle).fold(place.share, |share, _| share * HARDER);
+            let lower = |share: f64| (harder * share).max(LEAST);
             asked.push((*operation, Place { share: lower(before.share(place.at)), ..*place }));
             if everywhere {
                 let share = lower(before.everywhere());
@@ -58,6 +77,18 @@ impl Closer {
             }
         }
         self.places.extend(asked);
+        self.last = found;
+        self.last.iter().all(|found| found.idle < IDLE)
+    }
+
+    /// A place beside what the last round found about it.
+    fn found(&self, &(operation, place): &(usize, Place)) -> Found {
+        let away = |f: &Found| (f.place.at - place.at).norm();
+        let known = self.last.iter().filter(|f| f.operation == operation);
+        let before =
+            known.min_by(|a, b| away(a).total_cmp(&away(b))).filter(|f| away(f) <= SAME * place.reach);
+        let idle = before.filter(|f| place.share <= f.place.share).map_or(0, |f| f.idle + 1);
+        Found { operation, place, idle }
     }
 
     /// The places of one operation.
@@ -112,6 +143,7 @@ mod tests {
         let mut closer = Closer::default();
         let asked = [(1, Place { at, reach: 2.0, share: 0.9 })];
         closer.add(&asked, false);
+        closer.last.clear();
         closer.add(&asked, false);
         assert_eq!(closer.of(0).share(at), 1.0);
         let own = closer.of(1);
@@ -119,9 +151,28 @@ mod tests {
         assert!((own.share(Point3::new(4.0, 2.0, 3.0)) - 0.905).abs() < 1e-12);
         assert_eq!(own.share(Point3::new(6.0, 2.0, 3.0)), 1.0);
         for share in [0.9, 0.81] {
+            closer.last.clear();
             closer.add(&asked, true);
             assert!((closer.of(1).share(Point3::new(1e3, 0.0, 0.0)) - share).abs() < 1e-12);
         }
         assert!((closer.of(1).share(at) - 0.81 * 0.81).abs() < 1e-12);
+    }
+
+    /// What helps is asked for again as it is; what does not, harder, and not for ever.
+    #[test]
+    fn rounds_that_do_not_help_ask_for_more_and_come_to_an_end() {
+        let place = |share: f64| [(0, Place { at: Point3::origin(), reach: 2.0, share })];
+        let mut helped = Closer::default();
+        for share in [0.8, 0.85, 0.9, 0.95, 0.99] {
+            assert!(helped.add(&place(share), false));
+        }
+        let all = 0.8 * 0.85 * 0.9 * 0.95 * 0.99;
+        assert!((helped.of(0).share(Point3::origin()) - all).abs() < 1e-12);
+        let mut idle = Closer::default();
+        assert!(idle.add(&place(0.9), false));
+        assert!(idle.add(&place(0.9), false));
+        assert!((idle.of(0).share(Point3::origin()) - 0.9 * 0.9 * HARDER).abs() < 1e-12);
+        assert!(idle.add(&place(0.9), false));
+        assert!(!idle.add(&place(0.9), false));
     }
 }

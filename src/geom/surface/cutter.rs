@@ -100,6 +100,12 @@ impl Cutter {
     pub fn touches_beside(&self, n: Vec2) -> Vec2 {
         n.try_normalize(0.0).map_or_else(Vec2::zeros, |e| e * self.disc + n * self.corner)
     }
+    /// Its reference point where it touches a surface with this point and unit normal.
+    #[must_use]
+    pub fn set_on(&self, p: Point3, n: Vec3) -> Point3 {
+        let beside = self.touches_beside(n.xy());
+        Point3::new(p.x + beside.x, p.y + beside.y, p.z + self.corner * n.z)
+    }
     /// Outward normal of its side: away from the axis, and along it.
     pub(super) fn side_normal(&self) -> [f64; 2] {
         [self.side[1], -self.side[0]]

@@ -486,6 +486,9 @@ impl Bends<'_> {
             let strip = self.frame.strip(&(0..COLUMNS).map(at).collect());
             pool(&self.apart.left_along(&strip, [gap.before, Some(gap.own)], 0.0, spent), &mut used);
         }
+        if let Some(before) = gap.before {
+            pool(&self.apart.inside(before, gap.own), &mut used);
+        }
         used.iter_mut().for_each(|u| *u /= AIM * self.apart.cusp);
         used
     }

@@ -14,7 +14,7 @@ use super::family::{LINK, Leg, runs};
 use super::outline::{self, Outline};
 use super::scale::Scale;
 use crate::geom::surface::{Cutter, Guide, Rim, SurfaceTree, Track};
-use crate::geom::{Point2, Point3, Vec2};
+use crate::geom::{Point2, Point3};
 use crate::ir::{Along, Band, Spacing, Surface};
 use crate::math::count;
 use crate::plan::closer::Shares;
@@ -408,8 +408,7 @@ pub(super) fn deepest(tree: &SurfaceTree, cutter: &Cutter) -> Option<Spot> {
         let uv = [size[0] * i, size[1] * j];
         let jet = net.jet(uv[0], uv[1]);
         let Some(n) = jet.normal() else { continue };
-        let beside = cutter.touches_beside(Vec2::new(n.x, n.y));
-        let reference = Point3::new(jet.p.x + beside.x, jet.p.y + beside.y, jet.p.z + corner * n.z);
+        let reference = cutter.set_on(jet.p, n);
         let foot = tree.near(cutter, (reference, reference), corner, COUNTS, None);
         let depth = corner - foot.distance;
         if depth > worst.as_ref().map_or(COUNTS, |w| w.depth) {

@@ -34,6 +34,8 @@ pub struct Reacher<'a> {
     /// Points of the surface that have held the cutter, the last ones first to be asked.
     held: Vec<Point3>,
     hint: Option<Contact>,
+    /// From the last point to where the cutter took it.
+    took: Option<Vec2>,
 }
 
 /// Places at which the cutter is let down for one answer, at most.
@@ -81,11 +83,18 @@ impl<'a> Reacher<'a> {
     /// A cutter that is to leave `leave` mm on the surface.
     #[must_use]
     pub fn new(tree: &'a SurfaceTree, cutter: &Cutter, leave: f64) -> Reacher<'a> {
-        Reacher { tree, hull: cutter.grown(leave), bare: *cutter, held: Vec::new(), hint: None }
+        Reacher { tree, hull: cutter.grown(leave), bare: *cutter, held: Vec::new(), hint: None, took: None }
     }
 
     /// Whether the cutter, resting somewhere on the surface, takes a point.
     pub fn comes_to(&mut self, q: Point3) -> Reach {
+        // As at a point near by, for a start.
+        if let Some(beside) = self.took.take()
+            && self.takes(q.xy() + beside, q)
+        {
+            self.took = Some(beside);
+            return Reach::Somewhere;
+        }
         let (low, high) = self.tree.bounds();
         // Of a taper, places count at which its end is no deeper than the surface.
         let reach = self.bare.radius_at((high.z.max(q.z) - low.z).max(0.0) + self.hull.corner());
@@ -102,6 +111,7 @@ impl<'a> Reacher<'a> {
             }
             left -= 1;
             if self.takes(square.middle, q) {
+                self.took = Some(square.middle - q.xy());
                 return Reach::Somewhere;
             }
             let bound = self.bound(&square, &tangents, q);
