@@ -10,7 +10,7 @@ pub mod glide;
 mod near;
 mod place;
 mod quest;
-mod rest;
+pub mod rest;
 mod search;
 mod slide;
 

@@ -10,8 +10,7 @@
 use std::collections::BinaryHeap;
 
 use super::{Cutter, length};
-use crate::geom::surface::drop::Contact;
-use crate::geom::surface::tree::SurfaceTree;
+use crate::geom::surface::tree::{Foot, SurfaceTree};
 use crate::geom::{Point2, Point3, Vec2};
 
 /// Whether some place lets a cutter come to a point.
@@ -33,7 +32,7 @@ pub struct Reacher<'a> {
     bare: Cutter,
     /// Points of the surface that have held the cutter, the last ones first to be asked.
     held: Vec<Point3>,
-    hint: Option<Contact>,
+    hint: Option<Foot>,
     /// From the last point to where the cutter took it.
     took: Option<Vec2>,
 }
@@ -90,7 +89,7 @@ impl<'a> Reacher<'a> {
     pub fn comes_to(&mut self, q: Point3) -> Reach {
         // As at a point near by, for a start.
         if let Some(beside) = self.took.take()
-            && self.takes(q.xy() + beside, q)
+            && self.takes(q.xy() + beside, q, 0.0)
         {
             self.took = Some(beside);
             return Reach::Somewhere;
@@ -110,7 +109,7 @@ impl<'a> Reacher<'a> {
                 return Reach::Unknown;
             }
             left -= 1;
-            if self.takes(square.middle, q) {
+            if self.takes(square.middle, q, square.half) {
                 self.took = Some(square.middle - q.xy());
                 return Reach::Somewhere;
             }
@@ -123,15 +122,22 @@ impl<'a> Reacher<'a> {
         Reach::Nowhere
     }
 
-    /// Lets the cutter down over a place: whether it takes the point there.
-    fn takes(&mut self, at: Point2, q: Point3) -> bool {
-        let Some(rest) = self.hull.drop(self.tree, at.x, at.y, self.hint.as_ref()) else {
-            return self.bare.profile((q.xy() - at).norm()).is_some();
-        };
-        self.hint = Some(rest);
-        self.remember(rest.foot.point);
+    /// Lets the cutter down over a place: whether it takes the point there. What holds it higher than needed by `enough` is
+    /// not asked about any further.
+    fn takes(&mut self, at: Point2, q: Point3, enough: f64) -> bool {
         let profile = self.bare.profile((q.xy() - at).norm());
-        profile.is_some_and(|p| rest.centre.z + p.height <= q.z)
+        let height = profile.map_or(f64::NEG_INFINITY, |p| q.z - p.height);
+        let held = self.tree.holder(&self.hull, at.into(), (height, height + enough), self.hint.as_ref());
+        self.learn(held.ok().flatten());
+        held == Ok(None) && profile.is_some()
+    }
+
+    /// Remembers what holds the cutter.
+    fn learn(&mut self, foot: Option<Foot>) {
+        if let Some(foot) = foot {
+            self.hint = Some(foot);
+            self.remember(foot.point);
+        }
     }
 
     fn remember(&mut self, s: Point3) {
@@ -162,10 +168,14 @@ impl<'a> Reacher<'a> {
             return f64::NEG_INFINITY;
         }
         let narrow = Cutter { disc: self.hull.disc - away, ..self.hull };
-        let Some(rest) = narrow.drop(self.tree, square.middle.x, square.middle.y, self.hint.as_ref()) else {
+        let middle = square.middle;
+        let profile = self.bare.profile((q.xy() - middle).norm());
+        let height = profile.map_or(f64::NEG_INFINITY, |p| q.z - p.height);
+        let range = (height, height + square.half);
+        let Ok(Some(foot)) = self.tree.holder(&narrow, middle.into(), range, self.hint.as_ref()) else {
             return f64::NEG_INFINITY;
         };
-        self.remember(rest.foot.point);
+        self.learn(Some(foot));
         self.bound(square, tangents, q)
     }
 

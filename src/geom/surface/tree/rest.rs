@@ -226,4 +226,37 @@ impl SurfaceTree {
         let foot = Foot { patch: spot.patch, uv: spot.uv, point: spot.point, distance, certain: distance };
         Some(Contact { centre: Point3::new(at[0], at[1], height), normal, foot })
     }
+
+    /// A foot that holds a cutter over a place higher than `above`, the first that is found to hold it higher than `enough`, or
+    /// else the highest. `Ok(None)`: nothing does. `hint`: a foot near by.
+    ///
+    /// # Errors
+    ///
+    /// It was not found out.
+    pub fn holder(
+        &self,
+        cutter: &Cutter,
+        at: [f64; 2],
+        (above, enough): (f64, f64),
+        hint: Option<&Foot>,
+    ) -> Result<Option<Foot>, GaveUp> {
+        let aim = Lowering { cutter, at };
+        let mut search = Search::new(self, &aim, ACCURACY).above(above).until(enough);
+        if let Some(foot) = hint {
+            search.start(foot.patch, foot.uv);
+        }
+        search.run();
+        let distance = cutter.corner();
+        match search.spot.filter(|_| search.best > above.max(NOTHING)) {
+            Some(s) => {
+                Ok(Some(Foot { patch: s.patch, uv: s.uv, point: s.point, distance, certain: distance }))
+            }
+            None if search.gave_up() => Err(GaveUp),
+            None => Ok(None),
+        }
+    }
 }
+
+/// A search was given up.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct GaveUp;
