@@ -20,7 +20,7 @@ use crate::geom::curve::CurveRef;
 use crate::geom::surface::heights::Blank;
 use crate::geom::surface::{Cutter, SurfaceTree, Track};
 use crate::geom::{Point3, Side, Vec3};
-use crate::ir::{Band, Coolant, Feed, Interpolation, Origin, Spindle, Tool};
+use crate::ir::{Along, Band, Coolant, Feed, Interpolation, Origin, Spindle, Tool};
 use crate::units::LengthUnit;
 
 pub mod lead;
@@ -115,13 +115,24 @@ pub struct Finish {
     pub leave: f64,
     /// Largest height of the cusps between passes, mm, where that was asked for.
     pub cusp: Option<f64>,
-    /// How its passes follow one another, where they bend.
+    /// How its passes follow one another, where that was tried out.
     pub march: Option<March>,
 }
 
-/// How passes that bend follow one another over a surface. It is tried out; a plan that is made again keeps it.
+/// How passes follow one another over a surface, where that is not said. It is tried out; a plan that is made again keeps it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct March {
+pub enum March {
+    /// A ball's contacts on curves in the parameters.
+    Contacts(Contacts),
+    /// The axis of another cutter over curves in plan that run about as a parameter does (0: u).
+    Bent(usize),
+    /// It runs over lines of the parameters, or straight ones.
+    Straight(Along),
+}
+
+/// How passes that bend in the parameters follow one another.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Contacts {
     /// The parameter that passes run along (0: u).
     pub axis: usize,
     /// Where they begin.

@@ -13,6 +13,7 @@ use super::bends::{self, Making, Passes};
 use super::family::{LINK, Leg, runs};
 use super::outline::{self, Outline};
 use super::scale::Scale;
+use crate::cl::{Contacts, March};
 use crate::geom::surface::{Cutter, Guide, Rim, SurfaceTree, Track};
 use crate::geom::{Point2, Point3};
 use crate::ir::{Along, Band, Spacing, Surface};
@@ -61,12 +62,14 @@ pub(super) fn within(cutter: &Cutter, leave: f64, band: Band) -> (Cutter, Band) 
     (cutter.grown(leave + half - into), Band { into: half, out: half })
 }
 
-/// All passes and the ways between them, in the order they are cut, for a cutter with this hull about it.
+/// All passes and the ways between them, in the order they are cut, for a cutter with this hull about it; those that bend follow
+/// one another as known, or as is found to be best.
 pub(super) fn legs(
     surface: &Surface,
     tree: &Arc<SurfaceTree>,
     (hull, bare): (Cutter, &Cutter),
     shares: &Shares,
+    march: &mut Option<March>,
 ) -> Result<Vec<Leg>, String> {
     let lanes = Lanes { tree: Arc::clone(tree), cutter: hull, rim: Rim::new(tree.net(), &hull) };
     let apart = |cusp: f64| Apart {
@@ -86,7 +89,7 @@ pub(super) fn legs(
                 Spacing::Step(step) => (step, Some(step)),
                 Spacing::Cusp(cusp) => (cusp, None),
             };
-            lanes.bent(&apart(cusp), step, surface.along == Along::Const)?
+            lanes.bent(&apart(cusp), (step, surface.along == Along::Const), march)?
         }
         straight => vec![lanes.straight(straight, &steps())?],
     };
@@ -180,53 +183,77 @@ impl Lanes {
     }
 
     /// The shortest way of passes that bend, in chains of such that lie side by side; passes as far apart as ridges allow may
-    /// be straight, too. Which come into question is tried out with higher ridges.
-    fn bent(&self, apart: &Apart, step: Option<f64>, even: bool) -> Result<Vec<Vec<Lane>>, String> {
-        const STRAIGHT: [Along; 4] = [Along::U, Along::V, Along::X, Along::Y];
+    /// be straight, too. Which come into question is tried out with higher ridges, unless it is known.
+    fn bent(
+        &self,
+        apart: &Apart,
+        (step, even): (Option<f64>, bool),
+        known: &mut Option<March>,
+    ) -> Result<Vec<Vec<Lane>>, String> {
+        const BENT: [March; 2] = [March::Bent(0), March::Bent(1)];
+        const STRAIGHT: [March; 4] = [
+            March::Straight(Along::U),
+            March::Straight(Along::V),
+            March::Straight(Along::X),
+            March::Straight(Along::Y),
+        ];
         /// Straight ways are looked at that are no longer than so many times the bent one.
         const NEARLY: f64 = 1.02;
-        let coarse = apart.coarser(bends::TRIAL);
         let making = Making { tree: &self.tree, cutter: self.cutter, rim: self.rim, apart, step, even };
-        let straight = if even || step.is_some() { 0 } else { STRAIGHT.len() };
-        let tried: Vec<Result<f64, String>> = (0..2 + straight)
-            .into_par_iter()
-            .map(|way| match way.checked_sub(2) {
-                None => making.tried(way, &coarse),
-                Some(k) => self.length(STRAIGHT[k], &coarse),
-            })
-            .collect();
-        let of = |way: usize| tried[way].as_ref().map_or(f64::INFINITY, |length| *length);
-        let bent = if of(1) < of(0) * (1.0 - 1e-6) { 1 } else { 0 };
-        let least = (2..tried.len()).map(of).fold(of(bent), f64::min);
-        let most = NEARLY * if of(bent).is_finite() { of(bent) } else { least };
-        let ways: Vec<usize> = (0..tried.len()).filter(|w| *w == bent || *w > 1 && of(*w) <= most).collect();
-        let found: Vec<Result<Chains, String>> = ways
-            .par_iter()
-            .map(|way| match way.checked_sub(2) {
-                None => making.passes(*way).map(|passes| (passes.length, self.curves(&passes, step))),
-                Some(k) => {
-                    let lanes = self.straight(STRAIGHT[k], &Steps::Apart(apart.coarser(1.0)))?;
+        let passes = |way: March| -> Result<Chains, String> {
+            match way {
+                March::Straight(along) => {
+                    let lanes = self.straight(along, &Steps::Apart(apart.coarser(1.0)))?;
                     Ok((lanes.iter().map(|lane| lane.length).sum(), vec![lanes]))
                 }
-            })
-            .collect();
-        let mut best: Result<Chains, String> = Err("no pass meets the surface".into());
-        for (k, way) in found.into_iter().enumerate() {
-            // Of ways of the same length the first.
-            match (&best, &way) {
-                (Ok(b), Ok(w)) if w.0 < b.0 * (1.0 - 1e-6) => best = way,
-                (Err(_), Ok(_)) => best = way,
-                (Err(_), Err(_)) if k == 0 => best = way,
-                _ => {}
+                March::Bent(axis) | March::Contacts(Contacts { axis, .. }) => {
+                    making.passes(axis).map(|passes| (passes.length, self.curves(&passes, step)))
+                }
+            }
+        };
+        if let Some(Ok((_, chains))) = known.map(passes) {
+            return Ok(chains);
+        }
+        let coarse = apart.coarser(bends::TRIAL);
+        let straight: &[March] = if even || step.is_some() { &[] } else { &STRAIGHT };
+        let tried = |way: &March| {
+            let length = match *way {
+                March::Straight(along) => self.length(along, &coarse),
+                March::Bent(axis) | March::Contacts(Contacts { axis, .. }) => making.tried(axis, &coarse),
+            };
+            (length.unwrap_or(f64::INFINITY), *way)
+        };
+        let ways: Vec<&March> = BENT.iter().chain(straight).collect();
+        let tried: Vec<(f64, March)> = ways.into_par_iter().map(tried).collect();
+        let (bent, straight) = tried.split_at(BENT.len());
+        let bent = if bent[1].0 < bent[0].0 * (1.0 - 1e-6) { bent[1] } else { bent[0] };
+        let least = straight.iter().map(|way| way.0).fold(bent.0, f64::min);
+        let most = NEARLY * if bent.0.is_finite() { bent.0 } else { least };
+        let near = straight.iter().filter(|way| way.0 <= most);
+        let ways: Vec<March> = core::iter::once(&bent).chain(near).map(|way| way.1).collect();
+        let found: Vec<(March, Result<Chains, String>)> =
+            ways.into_par_iter().map(|way| (way, passes(way))).collect();
+        let mut best: Option<(March, Chains)> = None;
+        let mut why = None;
+        for (way, chains) in found {
+            match chains {
+                // Of ways of the same length the first.
+                Ok(chains) if best.as_ref().is_none_or(|b| chains.0 < b.1.0 * (1.0 - 1e-6)) => {
+                    best = Some((way, chains));
+                }
+                Ok(_) => {}
+                Err(reason) => why = why.or(Some(reason)),
             }
         }
-        if best.is_err()
-            && let Some(k) = (0..straight).min_by(|a, b| of(2 + a).total_cmp(&of(2 + b)))
-            && let Ok(lanes) = self.straight(STRAIGHT[k], &Steps::Apart(apart.coarser(1.0)))
+        if best.is_none()
+            && let Some((_, way)) = straight.iter().min_by(|a, b| a.0.total_cmp(&b.0))
         {
-            return Ok(vec![lanes]);
+            best = passes(*way).ok().map(|chains| (*way, chains));
         }
-        best.map(|b| b.1)
+        let (way, (_, chains)) =
+            best.ok_or_else(|| why.unwrap_or_else(|| "no pass meets the surface".into()))?;
+        *known = Some(way);
+        Ok(chains)
     }
 
     /// How long straight passes are in all, mm.

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use super::family::Family;
 use super::ridge::{Row, Target, border, gap, hidden};
 use super::spread::{COLUMNS, Ends, Line, MOST, SMOOTH, Spread, measure, smooth};
-use crate::cl::{March, Start};
+use crate::cl::{Contacts, March, Start};
 
 /// Rounds of measuring and moving one pass.
 const ROUNDS: u32 = 30;
@@ -38,10 +38,10 @@ pub(super) fn shortest(
     known: &mut Option<March>,
 ) -> Result<(Family, Spread), String> {
     let march = match *known {
-        Some(march) => march,
-        None => tried(&families, target, even)?,
+        Some(March::Contacts(march)) => march,
+        _ => tried(&families, target, even)?,
     };
-    *known = Some(march);
+    *known = Some(March::Contacts(march));
     let [along_u, along_v] = families;
     let family = if march.axis == 0 { along_u } else { along_v };
     let bent = BENT[usize::from(march.roomy)];
@@ -50,7 +50,7 @@ pub(super) fn shortest(
 }
 
 /// The shortest way, told from passes that lie farther apart.
-fn tried(families: &[Family; 2], target: Target, even: bool) -> Result<March, String> {
+fn tried(families: &[Family; 2], target: Target, even: bool) -> Result<Contacts, String> {
     let starts = [Start::First, Start::Last, Start::Middle];
     let ways: Vec<(usize, Start)> =
         (0..families.len()).flat_map(|axis| starts.map(|start| (axis, start))).collect();
@@ -74,7 +74,7 @@ fn tried(families: &[Family; 2], target: Target, even: bool) -> Result<March, St
     let (axis, start) = best.as_ref().map_or((0, Start::First), |b| b.1);
     let roomy =
         matches!(target, Target::Cusp(_)) && best.is_some_and(|b| b.0.blocks[1] < WORTH * b.0.blocks[0]);
-    Ok(March { axis, start, roomy })
+    Ok(Contacts { axis, start, roomy })
 }
 
 fn spread(

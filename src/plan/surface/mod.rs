@@ -65,7 +65,7 @@ impl Planner<'_> {
         let (legs, band) = match cutter.is_ball() {
             false => {
                 let (hull, band) = lanes::within(&cutter, surface.leave, surface.band);
-                (lanes::legs(surface, &tree, (hull, &cutter), &shares), band)
+                (lanes::legs(surface, &tree, (hull, &cutter), &shares, &mut march), band)
             }
             true => {
                 let family = Family::new(surface, Arc::clone(&tree), radius, shares);
