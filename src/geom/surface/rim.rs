@@ -9,7 +9,7 @@ use crate::geom::{Point2, Vec2};
 use crate::math;
 
 /// How far the plan goes on beyond the edges u = 0, u = last, v = 0 and v = last, mm. Beyond an edge, parameters run on by
-/// 1 for that way.
+/// 1 for that way, at right angles to the edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rim {
     beyond: [f64; 4],
@@ -45,12 +45,21 @@ impl Rim {
         let size = net.size().map(math::count);
         let inside: [f64; 2] = core::array::from_fn(|i| uv[i].clamp(0.0, size[i]));
         let jet = net.jet(inside[0], inside[1]);
-        let mut off = Vec2::zeros();
-        for (i, along) in [jet.u, jet.v].iter().enumerate() {
+        let [u, v] = [jet.u, jet.v].map(|t| t.xy().try_normalize(1e-12).unwrap_or_default());
+        let mut ways = [across(u, v), across(v, u)];
+        let mut wide = [0.0; 2];
+        for i in 0..2 {
             let past = uv[i] - inside[i];
-            let beyond = self.beyond[2 * i + usize::from(past > 0.0)] * past;
-            off += Vec2::new(along.x, along.y).try_normalize(1e-12).unwrap_or_default() * beyond;
+            wide[i] = self.beyond[2 * i + usize::from(past > 0.0)];
+            ways[i] *= past.signum();
         }
+        let [s, t]: [f64; 2] = core::array::from_fn(|i| (uv[i] - inside[i]).abs());
+        // At a corner as far out as both of its edges ask for.
+        let mixed = ways[0].dot(&ways[1]);
+        let det = (1.0 - mixed * mixed).max(1e-6);
+        let corner = (ways[0] * (wide[0] - mixed * wide[1]) + ways[1] * (wide[1] - mixed * wide[0])) / det;
+        let mut off =
+            corner * (s * t) + ways[0] * (wide[0] * s * (1.0 - t)) + ways[1] * (wide[1] * t * (1.0 - s));
         let length = off.norm();
         if length > self.most {
             off *= self.most / length;
@@ -77,6 +86,11 @@ impl Rim {
     }
 }
 
+/// The direction of a tangent at right angles to that of an edge, unit vectors in plan; the tangent's own where they are one.
+fn across(tangent: Vec2, edge: Vec2) -> Vec2 {
+    (tangent - edge * tangent.dot(&edge)).try_normalize(1e-6).unwrap_or(tangent)
+}
+
 /// How far outside an edge the axis of a cutter is that touches it.
 fn widest(net: &Net, cutter: &Cutter, side: usize) -> f64 {
     let (axis, last) = (side / 2, side % 2 == 1);
@@ -86,15 +100,59 @@ fn widest(net: &Net, cutter: &Cutter, side: usize) -> f64 {
         let mut uv = size.map(|n| n * f64::from(k) / f64::from(PLACES));
         uv[axis] = if last { size[axis] } else { 0.0 };
         let jet = net.jet(uv[0], uv[1]);
-        let (out, along) = if axis == 0 { (jet.u, jet.v) } else { (jet.v, jet.u) };
-        let edge = Vec2::new(along.x, along.y).try_normalize(1e-12).unwrap_or_default();
-        let out = Vec2::new(out.x, out.y) * if last { 1.0 } else { -1.0 };
-        let out = (out - edge * out.dot(&edge)).try_normalize(1e-12);
-        let (Some(n), Some(out)) = (jet.normal(), out) else { continue };
+        let (out, edge) = if axis == 0 { (jet.u, jet.v) } else { (jet.v, jet.u) };
+        let [out, edge] = [out, edge].map(|t| t.xy().try_normalize(1e-12).unwrap_or_default());
+        let out = across(out, edge) * if last { 1.0 } else { -1.0 };
+        let Some(n) = jet.normal() else { continue };
         let n = Vec2::new(n.x, n.y);
         if n.norm() > FLAT {
             widest = widest.max(cutter.touches_beside(n).dot(&out));
         }
     }
     widest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::Point3;
+
+    /// A plane patch that falls off, its sides `aslant` to each other, and the rim of a flat cutter about it.
+    fn skew(aslant: f64) -> (Net, Rim) {
+        let pole = |k: usize| {
+            let (i, j) = (math::count(k / 2), math::count(k % 2));
+            Point3::new(20.0 * i + aslant * j, 20.0 * j, 6.0 * i - 5.0 * j)
+        };
+        let net = Net::new(2, 2, &(0..4).map(pole).collect::<Vec<_>>(), None).expect("a net");
+        let rim = Rim::new(&net, &Cutter::bull(4.0, 0.0));
+        (net, rim)
+    }
+
+    #[test]
+    fn every_place_of_an_edge_is_left_behind_by_as_much_as_the_cutter_is_wide_there() {
+        for aslant in [0.0, 15.0, -30.0] {
+            let (net, rim) = skew(aslant);
+            let jet = net.jet(0.0, 0.5);
+            let touches = Cutter::bull(4.0, 0.0).touches_beside(jet.normal().expect("a normal").xy());
+            let edge = jet.v.xy().normalize();
+            let out = -across(jet.u.xy().normalize(), edge);
+            for v in [0.0, 0.3, 1.0] {
+                let off = rim.place(&net, [-1.0, v]) - rim.place(&net, [0.0, v]);
+                assert!((off.dot(&out) - touches.dot(&out)).abs() < 1e-9, "{aslant} {v}: {off}");
+            }
+        }
+    }
+
+    /// At a corner that falls off towards both edges the cutter comes to stand where it touches it alone.
+    #[test]
+    fn a_corner_is_left_behind_towards_both_of_its_edges() {
+        for aslant in [0.0, 15.0, 30.0] {
+            let (net, rim) = skew(aslant);
+            let corner = rim.place(&net, [0.0, 1.0]);
+            let touches =
+                Cutter::bull(4.0, 0.0).touches_beside(net.jet(0.0, 1.0).normal().expect("one").xy());
+            let off = rim.place(&net, [-1.0, 2.0]) - corner;
+            assert!((off - touches).norm() < 0.02 * touches.norm(), "{aslant}: {off} {touches}");
+        }
+    }
 }

@@ -8,9 +8,8 @@ use crate::geom::surface::drop::Contact;
 use crate::geom::surface::patch::SurfaceJet;
 use crate::geom::{Point3, Vec3};
 
-/// Nowhere else is the cutter held higher than where it is said to rest by more than this, mm: of two such places, far apart or
-/// not, either will do for a path that is proven afterwards.
-const ACCURACY: f64 = 1e-5;
+/// Nowhere else is the cutter held higher than where it is said to rest by more than this, mm.
+const ACCURACY: f64 = 1e-7;
 /// Of a sharp cutter, the share of its flat's radius within which its rim is taken for round.
 const SHARP: f64 = 0.05;
 /// Contacts nearer to an edge, in parameters, are at the edge as far as the search can tell: there the normal is the cutter's.
