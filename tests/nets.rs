@@ -220,6 +220,25 @@ fn passes_at_one_distance_lie_at_that_distance() {
     }
 }
 
+/// Slopes that fall off at their edges, one with its sides aslant to each other: every cutter goes so far beyond them that no
+/// more is left there than elsewhere.
+#[test]
+fn slopes_are_cut_to_their_edges_and_corners_by_every_cutter() {
+    let slope = "N1 = NET/ 2, 2, (0, 0, 0), (0, 6, -12), (8, 0, 0), (8, 6, -12)";
+    let skew = "N1 = NET/ 2, 2, (0, 0, 0), (5, 6, -8), (9, 1, 2), (14, 7, -7)";
+    for (net, operation) in
+        [(slope, "X, CUSP, 0.2"), (slope, "U, CUSP, 0.2"), (skew, "V, CUSP, 0.2"), (skew, "Y, CUSP, 0.2")]
+    {
+        for cutter in CUTTERS {
+            let build = built_by(cutter, net, operation);
+            let proof = outcome(&build).unwrap_or_else(|codes| panic!("{cutter} {operation}: {codes:?}"));
+            assert!(proof.into.value <= 1e-6 && proof.out.value <= 0.02 + 1e-6, "{cutter} {operation}");
+            assert!(proof.left_bound <= 0.22 + 1e-4, "{cutter} {operation} {}", proof.left_bound);
+            assert!(proof.unreachable.is_none(), "{cutter} {operation} {proof:?}");
+        }
+    }
+}
+
 /// A bull-nose whose flat does not fit the bottom of a valley: what stays there is told apart, along all of it.
 #[test]
 fn the_bottom_of_a_valley_that_a_flat_does_not_fit_is_told_apart() {

@@ -16,18 +16,22 @@ pub struct Rim {
     most: f64,
 }
 
-/// The axis stays nearer to the surface than this share of the cutter's radius: there it still touches.
-const SHARE: f64 = 0.99;
+/// The axis stays nearer to the surface than the cutter's radius by so much, mm, and by no more than this share of it: there it
+/// touches on every control's grid.
+const NEARER: (f64, f64) = (2e-3, 0.01);
 /// Places on an edge at which its slope is measured.
 const PLACES: u32 = 64;
 /// Surfaces that are flatter than this (the horizontal part of the normal) do not fall off.
 const FLAT: f64 = 1e-4;
 
 impl Rim {
-    /// As wide as `cutter` asks for.
+    /// As wide as `cutter` asks for; `swings`: what is laid over it goes through some of its places, and may swing out between
+    /// them.
     #[must_use]
-    pub fn new(net: &Net, cutter: &Cutter) -> Rim {
-        let most = SHARE * cutter.radius();
+    pub fn new(net: &Net, cutter: &Cutter, swings: bool) -> Rim {
+        let radius = cutter.radius();
+        let share = NEARER.1 * radius;
+        let most = radius - if swings { share } else { share.min(NEARER.0) };
         let beyond = core::array::from_fn(|side| widest(net, cutter, side).min(most));
         Rim { beyond, most }
     }
@@ -124,7 +128,7 @@ mod tests {
             Point3::new(20.0 * i + aslant * j, 20.0 * j, 6.0 * i - 5.0 * j)
         };
         let net = Net::new(2, 2, &(0..4).map(pole).collect::<Vec<_>>(), None).expect("a net");
-        let rim = Rim::new(&net, &Cutter::bull(4.0, 0.0));
+        let rim = Rim::new(&net, &Cutter::bull(4.0, 0.0), false);
         (net, rim)
     }
 

@@ -24,8 +24,9 @@ use crate::plan::closer::Shares;
 const EDGE: u32 = 200;
 /// More passes than this are a mistake in the step.
 const MOST: f64 = 50_000.0;
-/// Passes begin so far inside the outline, as a share of its width: at its border it has no length.
-const INSET: f64 = 1e-3;
+/// Passes begin so far inside the outline, mm, or as a share of its width where it is shorter there than this share of the
+/// cutter's radius.
+const INSET: (f64, f64, f64) = (2e-3, 1e-3, 0.1);
 /// Vertices may be to the side of their line by this share of the step, and of the distance to the next pass where the
 /// height of cusps is asked for.
 const ASIDE: (f64, f64) = (0.05, 0.02);
@@ -71,7 +72,8 @@ pub(super) fn legs(
     shares: &Shares,
     march: &mut Option<March>,
 ) -> Result<Vec<Leg>, String> {
-    let lanes = Lanes { tree: Arc::clone(tree), cutter: hull, rim: Rim::new(tree.net(), &hull) };
+    let bends = matches!(surface.along, Along::IsoCusp | Along::Const);
+    let lanes = Lanes { tree: Arc::clone(tree), cutter: hull, rim: Rim::new(tree.net(), &hull, bends) };
     let apart = |cusp: f64| Apart {
         hull,
         bare: *bare,
@@ -303,8 +305,14 @@ impl Lanes {
     fn over_lines<T>(&self, axis: usize, find: &Finder<'_, T>) -> Result<T, String> {
         let outline = Outline::new(axis, self.rim.outline(self.tree.net(), EDGE));
         let (low, high) = outline.width();
-        let inset = INSET * (high - low);
-        let (low, high) = (low + inset, high - inset);
+        let far = INSET.1 * (high - low);
+        let inset = |at: &dyn Fn(f64) -> f64| {
+            let near = INSET.0.min(far);
+            let long =
+                outline.crossings(at(near)).is_some_and(|(a, b)| b - a > INSET.2 * self.cutter.radius());
+            if long { at(near) } else { at(far) }
+        };
+        let (low, high) = (inset(&|by| low + by), inset(&|by| high - by));
         let line = |beyond: f64| {
             let across = low + beyond;
             let (a, b) = outline.crossings(across)?;
