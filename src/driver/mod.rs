@@ -156,23 +156,23 @@ pub fn build_to(main: &str, files: &dyn FileProvider, options: &Options, shelf: 
 
 /// A mistake in `--post-set` is one mistake, however many posts it is given to: what others say of it are notes of the first.
 fn once_for_all_posts(diagnostics: Vec<Diagnostic>, sources: &SourceMap) -> Vec<Diagnostic> {
-    let mut places: Vec<(&'static str, &str, core::ops::Range<u32>)> = Vec::new();
+    /// Its code, and the text and the place that it is about.
+    type Mistake<'a> = (&'static str, &'a str, core::ops::Range<u32>);
     let mut told: Vec<Diagnostic> = Vec::new();
-    let mut of_place: Vec<usize> = Vec::new();
+    // With each mistake, where it stands among those told.
+    let mut known: Vec<(Mistake<'_>, usize)> = Vec::new();
     for diagnostic in diagnostics {
         let span = diagnostic.primary.as_ref().map(|label| label.span);
         let Some(span) = span.filter(|span| post::is_override(span.file, sources)) else {
             told.push(diagnostic);
             continue;
         };
-        let place = (diagnostic.code.id, &*sources.file(span.file).text, span.start..span.end);
-        match places.iter().position(|known| *known == place).and_then(|known| of_place.get(known).copied()) {
-            Some(first) => told[first].also(diagnostic.message),
-            None => {
-                places.push(place);
-                of_place.push(told.len());
-                told.push(diagnostic);
-            }
+        let mistake = (diagnostic.code.id, &*sources.file(span.file).text, span.start..span.end);
+        if let Some((_, first)) = known.iter().find(|(before, _)| *before == mistake) {
+            told[*first].also(diagnostic.message);
+        } else {
+            known.push((mistake, told.len()));
+            told.push(diagnostic);
         }
     }
     told
