@@ -124,9 +124,16 @@ pub struct Finish {
 pub enum March {
     /// A ball's contacts on curves in the parameters.
     Contacts(Contacts),
-    /// The axis of another cutter over curves in plan that run about as a parameter does (0: u).
+    /// The axis of another cutter over lines in plan.
+    Over(Over),
+}
+
+/// What the axis of a cutter runs over.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Over {
+    /// Curves in plan that run about as a parameter does (0: u).
     Bent(usize),
-    /// It runs over lines of the parameters, or straight ones.
+    /// Lines of the parameters, or straight ones.
     Straight(Along),
 }
 

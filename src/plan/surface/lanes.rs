@@ -13,7 +13,7 @@ use super::bends::{self, Making, Passes};
 use super::family::{LINK, Leg, runs};
 use super::outline::{self, Outline};
 use super::scale::Scale;
-use crate::cl::{Contacts, March};
+use crate::cl::{March, Over};
 use crate::geom::surface::{Cutter, Guide, Rim, SurfaceTree, Track};
 use crate::geom::{Point2, Point3};
 use crate::ir::{Along, Band, Spacing, Surface};
@@ -91,7 +91,10 @@ pub(super) fn legs(
                 Spacing::Step(step) => (step, Some(step)),
                 Spacing::Cusp(cusp) => (cusp, None),
             };
-            lanes.bent(&apart(cusp), (step, surface.along == Along::Const), march)?
+            let known = if let Some(March::Over(over)) = march { Some(*over) } else { None };
+            let (over, chains) = lanes.bent(&apart(cusp), (step, surface.along == Along::Const), known)?;
+            *march = Some(March::Over(over));
+            chains
         }
         straight => vec![lanes.straight(straight, &steps())?],
     };
@@ -185,57 +188,60 @@ impl Lanes {
     }
 
     /// The shortest way of passes that bend, in chains of such that lie side by side; passes as far apart as ridges allow may
-    /// be straight, too. Which come into question is tried out with higher ridges, unless it is known.
+    /// be straight, too. Which come into question is tried out with higher ridges, unless it is known; with the passes, what
+    /// their axis runs over.
     fn bent(
         &self,
         apart: &Apart,
         (step, even): (Option<f64>, bool),
-        known: &mut Option<March>,
-    ) -> Result<Vec<Vec<Lane>>, String> {
-        const BENT: [March; 2] = [March::Bent(0), March::Bent(1)];
-        const STRAIGHT: [March; 4] = [
-            March::Straight(Along::U),
-            March::Straight(Along::V),
-            March::Straight(Along::X),
-            March::Straight(Along::Y),
+        known: Option<Over>,
+    ) -> Result<(Over, Vec<Vec<Lane>>), String> {
+        const BENT: [Over; 2] = [Over::Bent(0), Over::Bent(1)];
+        const STRAIGHT: [Over; 4] = [
+            Over::Straight(Along::U),
+            Over::Straight(Along::V),
+            Over::Straight(Along::X),
+            Over::Straight(Along::Y),
         ];
         /// Straight ways are looked at that are no longer than so many times the bent one.
         const NEARLY: f64 = 1.02;
         let making = Making { tree: &self.tree, cutter: self.cutter, rim: self.rim, apart, step, even };
-        let passes = |way: March| -> Result<Chains, String> {
+        let passes = |way: Over| -> Result<Chains, String> {
             match way {
-                March::Straight(along) => {
+                Over::Straight(along) => {
                     let lanes = self.straight(along, &Steps::Apart(apart.coarser(1.0)))?;
                     Ok((lanes.iter().map(|lane| lane.length).sum(), vec![lanes]))
                 }
-                March::Bent(axis) | March::Contacts(Contacts { axis, .. }) => {
+                Over::Bent(axis) => {
                     making.passes(axis).map(|passes| (passes.length, self.curves(&passes, step)))
                 }
             }
         };
-        if let Some(Ok((_, chains))) = known.map(passes) {
-            return Ok(chains);
+        if let Some(way) = known
+            && let Ok((_, chains)) = passes(way)
+        {
+            return Ok((way, chains));
         }
         let coarse = apart.coarser(bends::TRIAL);
-        let straight: &[March] = if even || step.is_some() { &[] } else { &STRAIGHT };
-        let tried = |way: &March| {
+        let straight: &[Over] = if even || step.is_some() { &[] } else { &STRAIGHT };
+        let tried = |way: &Over| {
             let length = match *way {
-                March::Straight(along) => self.length(along, &coarse),
-                March::Bent(axis) | March::Contacts(Contacts { axis, .. }) => making.tried(axis, &coarse),
+                Over::Straight(along) => self.length(along, &coarse),
+                Over::Bent(axis) => making.tried(axis, &coarse),
             };
             (length.unwrap_or(f64::INFINITY), *way)
         };
-        let ways: Vec<&March> = BENT.iter().chain(straight).collect();
-        let tried: Vec<(f64, March)> = ways.into_par_iter().map(tried).collect();
+        let ways: Vec<&Over> = BENT.iter().chain(straight).collect();
+        let tried: Vec<(f64, Over)> = ways.into_par_iter().map(tried).collect();
         let (bent, straight) = tried.split_at(BENT.len());
         let bent = if bent[1].0 < bent[0].0 * (1.0 - 1e-6) { bent[1] } else { bent[0] };
         let least = straight.iter().map(|way| way.0).fold(bent.0, f64::min);
         let most = NEARLY * if bent.0.is_finite() { bent.0 } else { least };
         let near = straight.iter().filter(|way| way.0 <= most);
-        let ways: Vec<March> = core::iter::once(&bent).chain(near).map(|way| way.1).collect();
-        let found: Vec<(March, Result<Chains, String>)> =
+        let ways: Vec<Over> = core::iter::once(&bent).chain(near).map(|way| way.1).collect();
+        let found: Vec<(Over, Result<Chains, String>)> =
             ways.into_par_iter().map(|way| (way, passes(way))).collect();
-        let mut best: Option<(March, Chains)> = None;
+        let mut best: Option<(Over, Chains)> = None;
         let mut why = None;
         for (way, chains) in found {
             match chains {
@@ -252,10 +258,8 @@ impl Lanes {
         {
             best = passes(*way).ok().map(|chains| (*way, chains));
         }
-        let (way, (_, chains)) =
-            best.ok_or_else(|| why.unwrap_or_else(|| "no pass meets the surface".into()))?;
-        *known = Some(way);
-        Ok(chains)
+        best.map(|(way, (_, chains))| (way, chains))
+            .ok_or_else(|| why.unwrap_or_else(|| "no pass meets the surface".into()))
     }
 
     /// How long straight passes are in all, mm.
