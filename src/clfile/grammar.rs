@@ -74,7 +74,7 @@ fn build(pair: Pair<'_, Rule>) -> Statement {
                 statement.word = (span.start(), span.end());
                 statement.majors = part.into_inner().map(|m| word(m.as_str())).collect();
             }
-            Rule::args => statement.args = part.into_inner().flat_map(arguments).collect(),
+            Rule::args => part.into_inner().for_each(|arg| add(arg, &mut statement.args)),
             _ => {}
         }
     }
@@ -85,15 +85,21 @@ fn build(pair: Pair<'_, Rule>) -> Statement {
     statement
 }
 
-/// What stands between two commas; numbers with nothing but blanks between them are several: some systems leave commas out.
-fn arguments(pair: Pair<'_, Rule>) -> Vec<Arg> {
-    let numbers: Vec<Arg> = pair
-        .as_str()
-        .split_whitespace()
-        .map_while(|text| super::scan::number(text).map(Arg::Number))
-        .collect();
-    let several = numbers.len() > 1 && numbers.len() == pair.as_str().split_whitespace().count();
-    if several { numbers } else { vec![argument(pair)] }
+/// Adds what stands between two commas; numbers with nothing but blanks between them are several: some systems leave commas
+/// out.
+fn add(pair: Pair<'_, Rule>, args: &mut Vec<Arg>) {
+    match several(pair.as_str().trim()) {
+        Some(numbers) => args.extend(numbers),
+        None => args.push(argument(pair)),
+    }
+}
+
+/// Numbers with blanks between them, if that is what a text is.
+fn several(text: &str) -> Option<Vec<Arg>> {
+    if !text.contains(char::is_whitespace) {
+        return None;
+    }
+    text.split_whitespace().map(|part| super::scan::number(part).map(Arg::Number)).collect()
 }
 
 fn argument(pair: Pair<'_, Rule>) -> Arg {
