@@ -10,6 +10,7 @@
 use std::collections::BinaryHeap;
 
 use super::{Cutter, length};
+use crate::geom::surface::tree::rest::GaveUp;
 use crate::geom::surface::tree::{Foot, SurfaceTree};
 use crate::geom::{Point2, Point3, Vec2};
 
@@ -125,19 +126,30 @@ impl<'a> Reacher<'a> {
     /// Lets the cutter down over a place: whether it takes the point there. What holds it higher than needed by `enough` is
     /// not asked about any further.
     fn takes(&mut self, at: Point2, q: Point3, enough: f64) -> bool {
-        let profile = self.bare.profile((q.xy() - at).norm());
-        let height = profile.map_or(f64::NEG_INFINITY, |p| q.z - p.height);
-        let held = self.tree.holder(&self.hull, at.into(), (height, height + enough), self.hint.as_ref());
-        self.learn(held.ok().flatten());
-        held == Ok(None) && profile.is_some()
+        let height = self.height(at, q);
+        self.holder(self.hull, at, height, enough) == Ok(None) && height.is_some()
     }
 
-    /// Remembers what holds the cutter.
-    fn learn(&mut self, foot: Option<Foot>) {
-        if let Some(foot) = foot {
+    /// The height of the cutter over a place at which it takes a point, if it can.
+    fn height(&self, at: Point2, q: Point3) -> Option<f64> {
+        self.bare.profile((q.xy() - at).norm()).map(|p| q.z - p.height)
+    }
+
+    /// Lets a cutter down over a place to a height: what holds it above, which is remembered.
+    fn holder(
+        &mut self,
+        cutter: Cutter,
+        at: Point2,
+        height: Option<f64>,
+        enough: f64,
+    ) -> Result<Option<Foot>, GaveUp> {
+        let height = height.unwrap_or(f64::NEG_INFINITY);
+        let held = self.tree.holder(&cutter, at.into(), (height, height + enough), self.hint.as_ref());
+        if let Ok(Some(foot)) = held {
             self.hint = Some(foot);
             self.remember(foot.point);
         }
+        held
     }
 
     fn remember(&mut self, s: Point3) {
@@ -168,15 +180,10 @@ impl<'a> Reacher<'a> {
             return f64::NEG_INFINITY;
         }
         let narrow = Cutter { disc: self.hull.disc - away, ..self.hull };
-        let middle = square.middle;
-        let profile = self.bare.profile((q.xy() - middle).norm());
-        let height = profile.map_or(f64::NEG_INFINITY, |p| q.z - p.height);
-        let range = (height, height + square.half);
-        let Ok(Some(foot)) = self.tree.holder(&narrow, middle.into(), range, self.hint.as_ref()) else {
-            return f64::NEG_INFINITY;
-        };
-        self.learn(Some(foot));
-        self.bound(square, tangents, q)
+        match self.holder(narrow, square.middle, self.height(square.middle, q), square.half) {
+            Ok(Some(_)) => self.bound(square, tangents, q),
+            _ => f64::NEG_INFINITY,
+        }
     }
 
     /// How high above `q` a point of the surface holds the cutter over all places of a square, from below.

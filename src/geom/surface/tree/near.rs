@@ -223,11 +223,7 @@ impl SurfaceTree {
         hint: Option<&Foot>,
     ) -> Foot {
         let aim = Sweep::new(cutter, way);
-        let mut search = Search::new(self, &aim, accuracy).above(-within);
-        if let Some(foot) = hint {
-            search.start(foot.patch, foot.uv);
-        }
-        search.run();
+        let search = Search::new(self, &aim, accuracy).above(-within).run(hint);
         let certain = -search.bound();
         match search.spot {
             Some(s) => Foot { patch: s.patch, uv: s.uv, point: s.point, distance: -search.best, certain },
@@ -246,11 +242,7 @@ impl SurfaceTree {
         hint: Option<&Foot>,
     ) -> bool {
         let aim = Sweep::new(cutter, way);
-        let mut search = Search::new(self, &aim, within - distance).above(-within).until(-distance);
-        if let Some(foot) = hint {
-            search.start(foot.patch, foot.uv);
-        }
-        search.run();
+        let search = Search::new(self, &aim, within - distance).above(-within).until(-distance).run(hint);
         search.best > -distance || search.gave_up()
     }
 
@@ -260,7 +252,7 @@ impl SurfaceTree {
     pub fn beside(&self, cutter: &Cutter, x: Point3, hint: &Foot) -> Foot {
         let aim = Sweep::new(cutter, (x, x));
         let mut search = Search::new(self, &aim, SAME);
-        search.start(hint.patch, hint.uv);
+        search.start(hint);
         match search.spot {
             Some(s) => {
                 Foot { patch: s.patch, uv: s.uv, point: s.point, distance: -search.best, certain: 0.0 }

@@ -1,7 +1,7 @@
 //! Where a cutter rests that is let down on the surface: the highest of the heights at which its points hold it.
 
 use super::bend::Bend;
-use super::search::{Aim, NOTHING, Search, solve};
+use super::search::{Aim, NOTHING, Search, Spot, solve};
 use super::{Foot, SurfaceTree};
 use crate::geom::surface::cutter::{Cutter, length};
 use crate::geom::surface::drop::Contact;
@@ -26,6 +26,12 @@ struct Lowering<'a> {
 impl Lowering<'_> {
     fn beside(&self, q: Point3) -> [f64; 2] {
         [q.x - self.at[0], q.y - self.at[1]]
+    }
+
+    /// Where the cutter touches.
+    fn foot(&self, spot: &Spot) -> Foot {
+        let distance = self.cutter.corner();
+        Foot { patch: spot.patch, uv: spot.uv, point: spot.point, distance, certain: distance }
     }
 }
 
@@ -208,11 +214,7 @@ impl SurfaceTree {
     #[must_use]
     pub fn rest(&self, cutter: &Cutter, at: [f64; 2], hint: Option<&Foot>) -> Option<Contact> {
         let aim = Lowering { cutter, at };
-        let mut search = Search::new(self, &aim, ACCURACY);
-        if let Some(foot) = hint {
-            search.start(foot.patch, foot.uv);
-        }
-        search.run();
+        let search = Search::new(self, &aim, ACCURACY).run(hint);
         let spot = search.spot.filter(|_| search.best > NOTHING)?;
         // What was given up could hold the cutter higher: then it is held there.
         let height =
@@ -221,9 +223,7 @@ impl SurfaceTree {
         let inside = spot.uv.iter().all(|t| *t > EDGE && *t < 1.0 - EDGE);
         let facing = || aim.facing(spot.point);
         let normal = if inside { jet.normal().or_else(facing) } else { facing().or_else(|| jet.normal()) }?;
-        let distance = cutter.corner();
-        let foot = Foot { patch: spot.patch, uv: spot.uv, point: spot.point, distance, certain: distance };
-        Some(Contact { centre: Point3::new(at[0], at[1], height), normal, foot })
+        Some(Contact { centre: Point3::new(at[0], at[1], height), normal, foot: aim.foot(&spot) })
     }
 
     /// A foot that holds a cutter over a place higher than `above`, the first that is found to hold it higher than `enough`, or
@@ -240,16 +240,9 @@ impl SurfaceTree {
         hint: Option<&Foot>,
     ) -> Result<Option<Foot>, GaveUp> {
         let aim = Lowering { cutter, at };
-        let mut search = Search::new(self, &aim, ACCURACY).above(above).until(enough);
-        if let Some(foot) = hint {
-            search.start(foot.patch, foot.uv);
-        }
-        search.run();
-        let distance = cutter.corner();
+        let search = Search::new(self, &aim, ACCURACY).above(above).until(enough).run(hint);
         match search.spot.filter(|_| search.best > above.max(NOTHING)) {
-            Some(s) => {
-                Ok(Some(Foot { patch: s.patch, uv: s.uv, point: s.point, distance, certain: distance }))
-            }
+            Some(spot) => Ok(Some(aim.foot(&spot))),
             None if search.gave_up() => Err(GaveUp),
             None => Ok(None),
         }

@@ -10,7 +10,7 @@
 use std::collections::BinaryHeap;
 
 use super::bend::Bend;
-use super::{Area, Kind, Leaf, SurfaceTree};
+use super::{Area, Foot, Kind, Leaf, SurfaceTree};
 use crate::geom::extremum::Section;
 use crate::geom::surface::patch::SurfaceJet;
 use crate::geom::{Point3, Vec3};
@@ -164,11 +164,20 @@ impl<'a, A: Aim> Search<'a, A> {
     }
 
     /// Tries a place from which the best one may be near.
-    pub(super) fn start(&mut self, patch: usize, uv: [f64; 2]) {
-        self.approach(patch, Area::WHOLE.clamp(uv));
+    pub(super) fn start(&mut self, near: &Foot) {
+        self.approach(near.patch, Area::WHOLE.clamp(near.uv));
     }
 
-    pub(super) fn run(&mut self) {
+    /// Looks for the best place, first from one near by.
+    pub(super) fn run(mut self, hint: Option<&Foot>) -> Search<'a, A> {
+        if let Some(foot) = hint {
+            self.start(foot);
+        }
+        self.look();
+        self
+    }
+
+    fn look(&mut self) {
         let mut open = BinaryHeap::from([Open { bound: f64::INFINITY, part: Part::Node(0) }]);
         while let Some(Open { bound, part }) = open.pop() {
             if bound <= self.limit() || self.best > self.until {
