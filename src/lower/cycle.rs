@@ -89,15 +89,12 @@ impl Emitter<'_> {
         else {
             return;
         };
-        if left != clockwise
-            || self.capabilities.whole_points
-            || self.cycle.as_ref().is_none_or(|active| active.hand_told)
-        {
+        if left != clockwise || self.capabilities.whole_points {
             return;
         }
-        if let Some(active) = &mut self.cycle {
-            active.hand_told = true;
-        }
+        // Once for all holes of the cycle.
+        let Some(active) = self.cycle.as_mut().filter(|active| !active.hand_told) else { return };
+        active.hand_told = true;
         let (hand, sense, other) =
             if left { ("left", "clockwise", "CCLW") } else { ("right", "counter-clockwise", "CLW") };
         let message = format!("the tap is {hand}-hand, and the spindle turns {sense}");
