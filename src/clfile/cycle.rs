@@ -299,12 +299,17 @@ impl Reader<'_> {
 
     /// Seconds of dwell; of turns, for the speed in force.
     fn cycle_dwell(&self, s: &Statement, turns: Option<f64>) -> Result<Option<f64>, String> {
-        let seconds = match (turns, s.after("DWELL"), self.state.spindle) {
-            (None, Some(seconds), _) => dwell_in_range(seconds)?,
-            (Some(turns), _, Some(Spindle::On { rpm, .. })) => dwell_of_turns(turns, rpm)?,
-            _ => return Ok(None),
+        let seconds = match turns {
+            Some(turns) => self.dwell_of_turns(turns)?,
+            None => s.after("DWELL").map(dwell_in_range).transpose()?,
         };
-        Ok(Some(seconds).filter(|s| *s > 0.0))
+        Ok(seconds.filter(|s| *s > 0.0))
+    }
+
+    /// Seconds that turns of the spindle take; `None` while it stands.
+    fn dwell_of_turns(&self, turns: f64) -> Result<Option<f64>, String> {
+        let Some(Spindle::On { rpm, .. }) = self.state.spindle else { return Ok(None) };
+        dwell_in_range(turns * 60.0 / rpm).map(Some)
     }
 
     /// The cycle of the next hole: goes on where it is the same.
@@ -370,14 +375,9 @@ impl Reader<'_> {
         if let (Some(feed), false, false) = (self.state.feed, asked.own_feed, tap) {
             asked.cycle.feed = feed;
         }
-        match (asked.turns, self.state.spindle) {
-            (Some(turns), Some(Spindle::On { rpm, .. })) if turns > 0.0 => {
-                asked.cycle.dwell = Some(dwell_of_turns(turns, rpm)?);
-            }
-            (Some(turns), _) if turns > 0.0 => {
-                return Err("revolutions of dwell need a turning spindle".to_owned());
-            }
-            _ => {}
+        if let Some(turns) = asked.turns.filter(|turns| *turns > 0.0) {
+            let dwell = self.dwell_of_turns(turns)?;
+            asked.cycle.dwell = Some(dwell.ok_or("revolutions of dwell need a turning spindle")?);
         }
         if let Some((rapid, back)) = asked.planes {
             point.z += asked.cycle.depth;
@@ -493,11 +493,6 @@ impl Reader<'_> {
 /// Boring that comes out at feed.
 fn bore(dwells: bool) -> CycleKind {
     if dwells { CycleKind::BoreDwell } else { CycleKind::Bore }
-}
-
-/// Seconds that turns of the spindle take.
-fn dwell_of_turns(turns: f64, rpm: f64) -> Result<f64, String> {
-    dwell_in_range(turns * 60.0 / rpm)
 }
 
 fn dwell_in_range(seconds: f64) -> Result<f64, String> {
