@@ -364,6 +364,71 @@ fn diff_tells_what_it_could_follow_and_takes_tools_by_any_name() {
 }
 
 #[test]
+fn diff_shows_the_first_block_that_differs_of_those_it_cannot_follow() {
+    let scratch = Scratch::new("diff-blocks");
+    let diff = |a: &str, b: &str| {
+        for (name, cycles) in [("a.mpf", a), ("b.mpf", b)] {
+            scratch.write(name, format!("G0 G90 G17 G40 G710 X0 Y0 Z5\n{cycles}M30\n"));
+        }
+        let output = scratch.run(&["diff", "a.mpf", "b.mpf", "--post", "sinumerik"]);
+        assert_eq!(code(&output), 4, "{}", stderr(&output));
+        stdout(&output)
+    };
+    let said = |blocks: [&str; 2], how: &str| {
+        let [a, b] = blocks;
+        format!(
+            "not compared as a whole: the control complains of {a} of a.mpf and {b} of b.mpf\n\
+             what can be followed is the same\n{how}\n"
+        )
+    };
+    let (one, other) = ("CYCLE999(1)\n", "CYCLE999(2)\n");
+    let (both, twice) = (format!("{one}{other}"), format!("{one}{one}"));
+    assert_eq!(
+        diff(one, other),
+        said(
+            ["1 block", "1"],
+            "of what cannot be followed, line 2 of a.mpf is `CYCLE999(1)`, and line 2 of b.mpf is `CYCLE999(2)`"
+        )
+    );
+    assert_eq!(
+        diff(&twice, &both),
+        said(
+            ["2 blocks", "2"],
+            "of what cannot be followed, line 3 of a.mpf is `CYCLE999(1)`, and line 3 of b.mpf is `CYCLE999(2)`"
+        )
+    );
+    assert_eq!(
+        diff(one, ""),
+        said(
+            ["1 block", "0"],
+            "of what cannot be followed, line 2 of a.mpf is `CYCLE999(1)`, and b.mpf has none"
+        )
+    );
+    assert_eq!(
+        diff(one, &both),
+        said(
+            ["1 block", "2"],
+            "of what cannot be followed, a.mpf has none, and line 3 of b.mpf is `CYCLE999(2)`"
+        )
+    );
+    // Blocks in between that are followed do not count.
+    assert_eq!(
+        diff(&both, &format!("{one}G17\n{other}")),
+        said(["2 blocks", "2"], "what cannot be followed is written the same")
+    );
+    // Several complaints of one block; long ones are cut off, characters that a terminal obeys left out.
+    let long = format!("CYCLE999(\u{1b}{}\n", "7".repeat(80));
+    let shown = "7".repeat(60 - "CYCLE999(".len());
+    assert_eq!(
+        diff("", &long),
+        said(
+            ["0 blocks", "1"],
+            &format!("of what cannot be followed, a.mpf has none, and line 2 of b.mpf is `CYCLE999({shown}`")
+        )
+    );
+}
+
+#[test]
 fn a_new_project_passes_every_step_of_its_own_ci_file() {
     let readable = |name: &&str| partwright::readback::needs(name).is_ok();
     for from in partwright::post::builtin_names().filter(readable) {

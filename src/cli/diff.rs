@@ -105,9 +105,14 @@ fn tool_names(programs: [&[u8]; 2]) -> Vec<(String, u32)> {
     names.into_iter().zip(NAMED..).collect()
 }
 
+/// The lines that the control complains of.
+fn lines(faults: &[Complaint]) -> BTreeSet<u32> {
+    faults.iter().map(|fault| fault.line).collect()
+}
+
 /// The blocks that the control complains of, as they are written, with their lines.
 fn not_followed(program: &[u8], faults: &[Complaint]) -> Vec<(u32, String)> {
-    let lines: BTreeSet<u32> = faults.iter().map(|fault| fault.line).collect();
+    let lines = lines(faults);
     let texts = (1u32..).zip(program.split(|b| *b == b'\n')).filter(|(line, _)| lines.contains(line));
     texts.map(|(line, text)| (line, String::from_utf8_lossy(text).trim().to_owned())).collect()
 }
@@ -132,14 +137,16 @@ fn written_otherwise(comparison: &Comparison, programs: [&[u8]; 2], names: [&str
 fn text(comparison: &Comparison, programs: [&[u8]; 2], args: &DiffArgs) -> String {
     let (a, b) = (args.a.to_string_lossy(), args.b.to_string_lossy());
     if !comparison.is_executable() {
-        let [of_a, of_b] = comparison.faults.each_ref().map(Vec::len);
+        // One block can have several complaints.
+        let [of_a, of_b] = comparison.faults.each_ref().map(|faults| lines(faults).len());
+        let blocks = if of_a == 1 { "block" } else { "blocks" };
         let rest = motion_print::text(comparison, motion_print::Names { a: &a, b: &b });
         let rest = if rest.is_empty() { "what can be followed is the same\n".to_owned() } else { rest };
         let otherwise = written_otherwise(comparison, programs, [&a, &b]);
         let otherwise =
             otherwise.unwrap_or_else(|| "what cannot be followed is written the same\n".to_owned());
         return format!(
-            "not compared as a whole: the control complains of {of_a} blocks of {a} and {of_b} of {b}\n{rest}{otherwise}"
+            "not compared as a whole: the control complains of {of_a} {blocks} of {a} and {of_b} of {b}\n{rest}{otherwise}"
         );
     }
     if comparison.is_same() {
