@@ -212,3 +212,31 @@ fn a_post_may_end_its_lines_and_count_its_pecks() {
     // Eleven millimetres in pecks of 2.5 at most.
     assert!(text.contains("Z-10. R1. J5 F80.*"), "{text}");
 }
+
+/// Each message with the notes about it.
+fn told(post_set: &[(&str, &str)], posts: &[&str]) -> Vec<(String, Vec<String>)> {
+    let files = MemoryFiles(BTreeMap::from([("a.apt".to_owned(), THROUGH.replace("THRU", "FLOOD"))]));
+    let posts = posts.iter().map(|p| (*p).to_owned()).collect();
+    let post_set = post_set.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
+    let build = build("a.apt", &files, &Options { posts, post_set, ..Options::default() });
+    build.diagnostics.into_iter().map(|d| (d.message, d.notes)).collect()
+}
+
+#[test]
+fn a_mistake_in_an_override_is_told_once_for_all_posts() {
+    let posts = ["fanuc", "haas", "linuxcnc"];
+    let key = "[words.x] has no key `nope`".to_owned();
+    assert_eq!(told(&[("words.x.nope", "1")], &posts), [(key.clone(), Vec::new())]);
+    // What others say of it in other words are notes, each once.
+    let option = |post: &str, name: &str| format!("the post `{post}` has no option `{name}`");
+    let of_all = |name: &str| (option("fanuc", name), vec![option("haas", name), option("linuxcnc", name)]);
+    let one = ("options.NOPE", "1");
+    assert_eq!(told(&[one], &posts), [of_all("NOPE")]);
+    assert_eq!(told(&[one], &["fanuc"]), [(option("fanuc", "NOPE"), Vec::new())]);
+    // Two mistakes stay two, also where they stand in the same columns.
+    let two = told(&[one, ("options.NOPF", "1")], &posts);
+    assert_eq!(two, [of_all("NOPE"), of_all("NOPF")]);
+    // What is wrong in the program is told for every post.
+    let coolant = told(&[("coolant.flood", "")], &posts);
+    assert!(coolant.len() >= posts.len(), "{coolant:?}");
+}
