@@ -1,5 +1,6 @@
 //! Lowering of hand-made CL data; everything emitted is written, read back and proven.
 
+mod changes;
 mod circles;
 mod cl;
 mod plate;
