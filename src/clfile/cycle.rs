@@ -375,7 +375,7 @@ impl Reader<'_> {
         if let (Some(feed), false, false) = (self.state.feed, asked.own_feed, tap) {
             asked.cycle.feed = feed;
         }
-        if let Some(turns) = asked.turns.filter(|turns| *turns > 0.0) {
+        if let Some(turns) = asked.turns.filter(|turns| *turns != 0.0) {
             let dwell = self.dwell_of_turns(turns)?;
             asked.cycle.dwell = Some(dwell.ok_or("revolutions of dwell need a turning spindle")?);
         }

@@ -53,6 +53,18 @@ proptest! {
     }
 
     #[test]
+    fn numbers_between_blanks_are_read_as_between_commas(
+        values in prop::collection::vec(spelled().prop_filter("a number", |v| scan::number(v).is_some()), 1..8),
+        gaps in prop::collection::vec(prop_oneof![Just(" "), Just("   "), Just("\t"), Just(" , "), Just(",")], 8),
+    ) {
+        let line: String = values.iter().zip(&gaps).map(|(value, gap)| format!("{gap}{value}")).collect();
+        let line = format!("FROM/ {}", line.trim_start_matches([' ', '\t', ',']));
+        let read = grammar::parse(&line).map(|statement| statement.args);
+        let numbers: Vec<Arg> = values.iter().filter_map(|v| scan::number(v).map(Arg::Number)).collect();
+        prop_assert_eq!(read, Ok(numbers), "{}", line);
+    }
+
+    #[test]
     fn numbers_are_rounded_as_the_standard_library_rounds(text in "-?[0-9]{1,20}(\\.[0-9]{0,20})?") {
         let read = scan::number(&text);
         let exact: f64 = text.parse().unwrap();

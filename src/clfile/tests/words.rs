@@ -23,6 +23,10 @@ fn nothing_is_dropped_in_silence() {
         ("CYCLE/ DRILL, FEDTO, 20, 7, MMPM, 120, RAPTO, 2", "E1006"),
         ("CYCLE/ DRILL, 7, FEDTO, 20, MMPM, 120, RAPTO, 2", "E1006"),
         ("CYCLE/ DRILL, FEDTO, 20, MMPM, 120, RAPTO, 2, DWELL, 1E9", "E1006"),
+        (
+            "SPINDL/ OFF\nCYCLE/ FACE, FEDTO, 2, MMPM, 50, RAPTO, 2, DWELL, -3, REV\nSPINDL/ 900, CLW\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
+            "E1006",
+        ),
         ("CIRCLE/ 0, 0, 5, 0, 0, 1, 10, TIMES, 1E9\nGOTO/ 10, 0, 5", "E1002"),
         ("CIRCLE/ 0, 0, 5, 0, 0, 1, 10", "E1002"),
         ("CIRCLE/ 0, 0, 5, 0, 0, 1, 10\nRAPID\nGOTO/ 0, 10, 5", "E1002"),
@@ -354,4 +358,32 @@ fn an_empty_file_is_an_error_and_one_that_moves_nothing_a_warning() {
     }
     // What is wrong is told, and not that nothing moves.
     assert_eq!(read("GOTO/1\n").1, ["E1002"]);
+}
+
+#[test]
+fn numbers_need_no_commas_between_them() {
+    let printed = |body: &str| {
+        let (cl, codes) = read(&framed(body));
+        assert_eq!(codes, [""; 0], "{body}");
+        crate::cl::print::print(&cl)
+    };
+    for (without, with) in [
+        ("GOTO/ 1 -2 3.5", "GOTO/ 1, -2, 3.5"),
+        ("GOTO/1.\t-2.  +3.5", "GOTO/ 1, -2, 3.5"),
+        ("GOTO/ 1, -2 3.5", "GOTO/ 1, -2, 3.5"),
+        ("CIRCLE/ 0 0 5 0 0 1 10\nGOTO/ 0 10 5", "CIRCLE/ 0, 0, 5, 0, 0, 1, 10\nGOTO/ 0, 10, 5"),
+        (
+            "CYCLE/ DRILL, 15 200, MMPM, 2\nGOTO/ 1 1 0\nCYCLE/ OFF",
+            "CYCLE/ DRILL, 15, 200, MMPM, 2\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
+        ),
+    ] {
+        assert_eq!(printed(without), printed(with), "{without}");
+    }
+    // What is not numbers all through is one word, and there are no fewer numbers than the record takes.
+    for wrong in ["GOTO/ 1 2", "GOTO/ 1 2 X3", "GOTO/ 1 - 2 3", "GOTO/ 1 2 3, 4 X"] {
+        assert_eq!(read(&framed(wrong)).1, ["E1002"], "{wrong}");
+    }
+    let operation = read(&framed("TOOL PATH/FACE 1 2,TOOL,MILL 3 4\nGOTO/ 1, 1, 1")).0;
+    let operation = crate::cl::print::print(&operation);
+    assert!(operation.contains("FACE 1 2"), "{operation}");
 }
