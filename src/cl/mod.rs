@@ -20,7 +20,7 @@ use crate::geom::curve::CurveRef;
 use crate::geom::surface::heights::Blank;
 use crate::geom::surface::{Cutter, SurfaceTree, Track};
 use crate::geom::{Point3, Side, Vec3};
-use crate::ir::{Along, Band, Coolant, Feed, Interpolation, Origin, Spindle, Tool};
+use crate::ir::{Along, Band, Coolant, Feed, Interpolation, Origin, PassShape, Spindle, Tool};
 use crate::units::LengthUnit;
 
 pub mod lead;
@@ -295,8 +295,8 @@ pub struct Pass {
     pub band: Band,
     /// It is the way from one pass to the next.
     pub link: bool,
-    /// Arcs are welcome, where the pass runs in a plane in which the control has them.
-    pub arcs: bool,
+    /// What it may be made of.
+    pub shape: PassShape,
     /// How far the path may be to the side of the track, mm, at equidistant parameters from 0 to 1: what the distance
     /// to its neighbours leaves. Empty: as far as it likes.
     pub room: Vec<f64>,

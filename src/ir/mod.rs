@@ -523,6 +523,18 @@ pub enum Spacing {
     Step(f64),
 }
 
+/// What passes over a surface may be made of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum PassShape {
+    /// Straight lines.
+    #[default]
+    Lines,
+    /// Arcs too, where the control has them in the plane of a pass.
+    Arcs,
+    /// Curves too, where the control has them in space; else arcs.
+    Curves,
+}
+
 /// `ROUGH/ net, LEVELS …`.
 #[derive(Debug, Clone)]
 pub struct RoughNet {
@@ -579,6 +591,6 @@ pub struct Surface {
     pub stock_top: Option<f64>,
     /// `ROUGH`: from the blank, or what an operation before has left of it.
     pub rough: bool,
-    /// Passes may be arcs.
-    pub arcs: bool,
+    /// What passes may be made of.
+    pub shape: PassShape,
 }

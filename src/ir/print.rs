@@ -7,7 +7,7 @@ use core::fmt::Write as _;
 
 use super::{
     Along, CamEntity, Coolant, CurveEntity, Cut, CutterKind, Entry, Feed, Flank, Interpolation, Machine,
-    NetEntity, Origin, Profile, ProfileTarget, Program, RoughCam, RoughNet, Spacing, Spindle, StepKind,
+    NetEntity, Origin, PassShape, Profile, ProfileTarget, Program, RoughCam, RoughNet, Spacing, Spindle, StepKind,
     Stock, StockShape, Surface, Tool,
 };
 use crate::arena::Handle;
@@ -305,12 +305,17 @@ fn surface_text(surface: &Surface) -> String {
         Along::IsoCusp => "isocusp",
         Along::Const => "const",
     };
+    let shape = match surface.shape {
+        PassShape::Lines => "",
+        PassShape::Arcs => " arcs",
+        PassShape::Curves => " curves",
+    };
     let spacing = match surface.spacing {
         Spacing::Cusp(h) => format!("cusp {}", num(h)),
         Spacing::Step(s) => format!("step {}", num(s)),
     };
     format!(
-        "{}{} {:?} {} {along} {spacing} {} tool {:?} leave {} intol {} outtol {} clearance {}",
+        "{}{} {:?} {} {along}{shape} {spacing} {} tool {:?} leave {} intol {} outtol {} clearance {}",
         if surface.rough { "rough surface" } else { "surface" },
         named(surface.name.as_ref()),
         surface.net,

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::contour::Fitted;
 use super::cycle::Active;
 use super::feed::{self, FeedTrouble};
+use super::pass::Form;
 use super::rotary;
 use super::spline::Told;
 use super::tools::Tools;
@@ -516,7 +517,18 @@ impl<'a> Emitter<'a> {
         for block in chain {
             let [x, y, z] = block.to;
             let (r, feed) = (self.face_front(), self.linear_feed());
-            self.part((Position { x, y, z, r }, block.arc), feed);
+            let to = Position { x, y, z, r };
+            match &block.form {
+                Form::Line => self.line(to, feed),
+                Form::Arc(plane, centre, clockwise) => {
+                    self.part((to, Some((*plane, *centre, *clockwise))), feed);
+                }
+                Form::Curve(curve) => {
+                    let turned = |(p, weight): &(Position, f64)| (Position { r, ..*p }, *weight);
+                    let points = curve.points.iter().map(turned).collect();
+                    self.draw(Nurbs { points, ..(**curve).clone() }, feed);
+                }
+            }
         }
         let step = self.capabilities.grid.linear_step();
         self.exact = chain.last().map(|block| Point3::from(block.to.map(|s| s as f64 * step)));

@@ -168,7 +168,7 @@ impl Emitter<'_> {
         spline.tolerance().max(least) * (1.0 - share)
     }
 
-    fn draw(&mut self, curve: Nurbs, feed: FeedWord) {
+    pub(super) fn draw(&mut self, curve: Nurbs, feed: FeedWord) {
         let Some(to) = curve.end() else { return };
         let places: Vec<Position> = curve.places().collect();
         // Less than a step of the grid.

@@ -7,7 +7,9 @@ use crate::geom::Point3;
 use crate::geom::surface::curvature::most_concave;
 use crate::geom::surface::net::uneven;
 use crate::geom::surface::{Net, NetIssue};
-use crate::ir::{Along, CutterKind, NetEntity, RoughNet, Spacing, StepKind, StockShape, Surface, Tool};
+use crate::ir::{
+    Along, CutterKind, NetEntity, PassShape, RoughNet, Spacing, StepKind, StockShape, Surface, Tool,
+};
 use crate::math::{DEG, count};
 use crate::source::Span;
 use crate::units::{Dim, Quantity};
@@ -164,8 +166,12 @@ impl Analyser<'_> {
         let tool = self.ready("SURFAC", m);
         let spacing = self.spacing(m);
         let tool = tool.and_then(|tool| self.solid(m, tool));
-        let arcs = m.word("interpolation") == Some("CIRCUL");
-        if arcs && !tool.is_none_or(|tool| self.in_planes(m, tool)) {
+        let shape = match m.word("interpolation") {
+            Some("CIRCUL") => PassShape::Arcs,
+            Some("NURBS") => PassShape::Curves,
+            _ => PassShape::Lines,
+        };
+        if shape == PassShape::Arcs && !tool.is_none_or(|tool| self.in_planes(m, tool)) {
             return;
         }
         let Some(Entity::Net(net)) = m.entity("net") else { return };
@@ -184,7 +190,7 @@ impl Analyser<'_> {
             clearance: self.state.clearance,
             stock_top: self.stock_top(),
             rough: false,
-            arcs,
+            shape,
         };
         self.step(StepKind::Surface(surface));
         self.moved();
@@ -211,7 +217,7 @@ impl Analyser<'_> {
             clearance: self.state.clearance,
             stock_top: self.stock_top(),
             rough: true,
-            arcs: false,
+            shape: PassShape::Lines,
         };
         self.step(StepKind::Surface(surface));
         self.moved();

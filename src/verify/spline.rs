@@ -2,6 +2,7 @@
 
 use super::path::{Jet, Primitive};
 use crate::geom::{Point2, Vec2};
+use crate::readback::SpaceCurve;
 
 /// Largest order that is taken apart.
 const MOST_ORDER: usize = 16;
@@ -17,6 +18,12 @@ pub(super) fn segments(order: usize, points: &[Point2], weights: &[f64], knots: 
         Primitive::Rational { points, bounds }
     };
     beziers(order, &control, knots).into_iter().map(of).collect()
+}
+
+/// The heights of the segments of a curve in space, as the X of segments over the same parameters.
+pub(super) fn heights(curve: &SpaceCurve) -> Vec<Primitive> {
+    let points: Vec<Point2> = curve.points.iter().map(|p| Point2::new(p.z, 0.0)).collect();
+    segments(usize::from(curve.order), &points, &curve.weights, &curve.knots)
 }
 
 /// Control points of the Bézier segments of a B-spline, one for every knot interval that is not empty; none when the

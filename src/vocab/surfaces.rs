@@ -141,6 +141,7 @@ const SURFAC: &[Form] = &[form(
             &[
                 word("LINEAR", "straight lines"),
                 word("CIRCUL", "arcs in the control's XZ and YZ planes, for ball-end cutters along X and Y"),
+                word("NURBS", "curves of the control in space; else arcs as above"),
             ],
             "LINEAR",
         ),

@@ -7,8 +7,9 @@
 //! their true distance from the surface; where one fails, a narrower band is tried.
 
 use super::vertex::Vertex;
-use super::{Chain, Chart, Step, Task};
+use super::{Chain, Chart, Form, Step, Task};
 use crate::cl::Circle;
+use crate::geom::surface::cutter::bent::Way;
 use crate::geom::surface::{Contact, Guide};
 use crate::geom::{Point2, Point3, Vec2, Vec3, cross};
 use crate::lower::arc::{Legal, centre_per_linear, legalise};
@@ -102,7 +103,7 @@ impl<'a> Fitter<'a> {
     }
 
     fn chain(&self, head: Vertex, tail: Vertex) -> Option<Chain> {
-        let mut out = vec![Step { to: head.steps, arc: None }];
+        let mut out = vec![Step { to: head.steps, form: Form::Line }];
         let mut start = head;
         let pieces = self.chart.pieces();
         for (k, piece) in pieces.iter().enumerate() {
@@ -228,7 +229,7 @@ impl<'a> Fitter<'a> {
     fn primitive(&self, from: &Vertex, to: &Vertex, (low, high): Curvatures, out: &mut Chain) -> Option<()> {
         let straight = low <= 0.0 && high >= 0.0 && self.task.holds(from, to.steps);
         if straight {
-            out.push(Step { to: to.steps, arc: None });
+            out.push(Step { to: to.steps, form: Form::Line });
             return Some(());
         }
         let curvature = 0.5 * (low + high);
@@ -241,11 +242,11 @@ impl<'a> Fitter<'a> {
             let (step, held) = match part {
                 Legal::Line(end) => {
                     let to = self.placed(end, from);
-                    (Step { to, arc: None }, self.task.holds(&at, to))
+                    (Step { to, form: Form::Line }, self.task.holds(&at, to))
                 }
                 Legal::Arc(arc) => {
                     let to = self.placed(arc.to, from);
-                    let step = Step { to, arc: Some((self.plane, arc.centre, arc.clockwise)) };
+                    let step = Step { to, form: Form::Arc(self.plane, arc.centre, arc.clockwise) };
                     (step, self.follows(&at, &arc, to))
                 }
             };
@@ -305,7 +306,10 @@ impl<'a> Fitter<'a> {
         centre[second] += hub[1];
         axis[third] = if arc.clockwise { -1.0 } else { 1.0 };
         let circle = Circle { to: self.task.lattice.centre(to), centre, axis, turns: 0, tolerance: 0.0 };
-        Helix::new(from.centre, &circle).is_some_and(|helix| self.task.follows(from, &helix))
+        Helix::new(from.centre, &circle).is_some_and(|helix| {
+            let way = Way { at: &|x| helix.at(x), bend: helix.bend() };
+            self.task.follows(&way, &from.foot)
+        })
     }
 }
 

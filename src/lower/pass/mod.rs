@@ -5,10 +5,13 @@
 //! the band is a ribbon of constant width. The fewest links of the ribbon give the vertices; these are taken back
 //! to space, set on the grid, and every link is checked by its true distance from the surface. What fails is tried
 //! again in a narrower ribbon, and links that still fail are cut in two.
+//!
+//! Where they are asked for and the control has them, passes are [`arcs`] or [`curves`], if these are fewer blocks.
 
 mod anchors;
 mod arcs;
 mod chart;
+mod curves;
 mod vertex;
 
 use std::sync::Arc;
@@ -18,16 +21,16 @@ use rayon::prelude::*;
 use super::circle;
 use super::contour::cannot_fit;
 use super::fit::ribbon;
-use crate::cl::{Cl, Pass, RecordKind};
-use crate::diag::Sink;
+use crate::cl::{Cl, Pass, Record, RecordKind};
+use crate::diag::{Code, Sink};
 use crate::diag::codes::lowering as codes;
 use crate::geom::surface::cutter::bent::{self, Way};
 use crate::geom::surface::cutter::stays;
 use crate::geom::surface::swept::Question;
-use crate::geom::surface::{Contact, Guide, Track};
+use crate::geom::surface::{Contact, Foot, Guide, Track};
 use crate::geom::{Point2, Point3, Vec3, cross};
-use crate::ir::at_origin;
-use crate::target::{Capabilities, Plane};
+use crate::ir::{Feed, PassShape, at_origin};
+use crate::target::{Capabilities, Nurbs, NurbsForm, Plane};
 use chart::Chart;
 use vertex::{Lattice, Vertex};
 
@@ -35,12 +38,22 @@ use vertex::{Lattice, Vertex};
 pub(super) type Chain = Vec<Step>;
 
 /// A block of a pass.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Step {
     /// Its end, in steps of the grid.
     pub to: [i64; 3],
-    /// For an arc its plane, centre minus start along the plane's axes, in centre steps, and whether it is clockwise.
-    pub arc: Option<(Plane, [i64; 2], bool)>,
+    /// What leads there.
+    pub form: Form,
+}
+
+/// What a block of a pass draws.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Form {
+    Line,
+    /// Its plane, centre minus start along the plane's axes, in centre steps, and whether it is clockwise.
+    Arc(Plane, [i64; 2], bool),
+    /// A curve of the control; its table position is told when it is cut.
+    Curve(Box<Nurbs>),
 }
 
 /// Parts of the band, on either side, that are left to the rounding of vertices: tried in this order, steps of the grid.
@@ -67,6 +80,13 @@ struct Trouble {
     lost: bool,
 }
 
+/// What passes may be made of besides lines.
+#[derive(Debug, Clone, Copy, Default)]
+struct Allowed {
+    arcs: bool,
+    curves: Option<NurbsForm>,
+}
+
 /// Fits all passes of a program, in parallel; one entry a record, `None` where it is no pass.
 pub(super) fn fit_all(cl: &Cl, capabilities: &Capabilities, sink: &mut Sink) -> Vec<Option<Arc<Chain>>> {
     let tasks: Vec<Option<Fittable<'_>>> = cl
@@ -77,17 +97,12 @@ pub(super) fn fit_all(cl: &Cl, capabilities: &Capabilities, sink: &mut Sink) -> 
             _ => None,
         })
         .collect();
-    let tasks = joined(tasks);
-    let fitted: Vec<Option<Result<Chain, Trouble>>> = cl
-        .records
-        .par_iter()
-        .zip(tasks)
-        .map(|(record, task)| match &record.kind {
-            RecordKind::Pass(pass) => Some(task?.and_then(|task| fit(&task, pass, capabilities))),
-            _ => None,
-        })
+    let (tasks, allowed) = (joined(tasks), allowed(cl, capabilities, sink));
+    let fitted: Vec<Option<Result<Chain, Trouble>>> = tasks
+        .into_par_iter()
+        .zip(allowed)
+        .map(|(task, allowed)| Some(task?.and_then(|task| fit(&task, allowed, capabilities))))
         .collect();
-    as_lines(cl, capabilities, sink);
     let mut told = Vec::new();
     let mut out = Vec::with_capacity(fitted.len());
     for (record, result) in cl.records.iter().zip(fitted) {
@@ -107,22 +122,53 @@ pub(super) fn fit_all(cl: &Cl, capabilities: &Capabilities, sink: &mut Sink) -> 
     out
 }
 
-/// Tells of operations whose passes could be arcs, had the control any in their planes.
-fn as_lines(cl: &Cl, capabilities: &Capabilities, sink: &mut Sink) {
-    let mut told = Vec::new();
-    for record in &cl.records {
-        let RecordKind::Pass(pass) = &record.kind else { continue };
-        let span = cl.origins[record.origin].span;
-        let Some(plane) = no_arcs(pass, capabilities).filter(|_| pass.arcs && !told.contains(&span)) else {
-            continue;
+/// What the passes may be made of, one entry a record; tells of operations that ask for what the control does not have.
+fn allowed(cl: &Cl, capabilities: &Capabilities, sink: &mut Sink) -> Vec<Allowed> {
+    let (mut told, mut feed) = (Vec::new(), None);
+    let mut of = |record: &Record| {
+        let pass = match &record.kind {
+            RecordKind::Pass(pass) => pass,
+            RecordKind::Feed(own) => {
+                feed = Some(*own);
+                return Allowed::default();
+            }
+            _ => return Allowed::default(),
         };
-        told.push(span);
-        let message = format!(
-            "the passes are cut by lines: `{}` has no arcs in the {} plane",
-            capabilities.name,
-            circle::plane_name(plane)
-        );
-        sink.push(at_origin(&codes::ARC_AS_LINES, &cl.origins, record.origin, message));
+        let by_turn = matches!(feed, Some(Feed::PerRevolution(_))) && capabilities.feed_per_revolution;
+        let (allowed, missing) = allowed_for(pass, capabilities, by_turn);
+        let span = cl.origins[record.origin].span;
+        if let Some((code, why)) = missing.filter(|_| !told.contains(&span)) {
+            told.push(span);
+            let instead = if allowed.arcs { "arcs" } else { "lines" };
+            let message = format!("the passes are cut by {instead}: {why}");
+            sink.push(at_origin(code, &cl.origins, record.origin, message));
+        }
+        allowed
+    };
+    cl.records.iter().map(&mut of).collect()
+}
+
+/// What a pass may be made of, and why that is not what it asks for.
+fn allowed_for(
+    pass: &Pass,
+    capabilities: &Capabilities,
+    by_turn: bool,
+) -> (Allowed, Option<(&'static Code, String)>) {
+    let (plane, name) = (arcs::plane_of(&pass.track.guide), &capabilities.name);
+    let has = |plane: Plane| capabilities.arcs && capabilities.planes.contains_key(&plane);
+    let arcs = Allowed { arcs: plane.is_some_and(has), curves: None };
+    match pass.shape {
+        PassShape::Lines => (Allowed::default(), None),
+        PassShape::Arcs => {
+            let missing = plane.filter(|plane| !has(*plane));
+            let why =
+                |plane: Plane| format!("`{name}` has no arcs in the {} plane", circle::plane_name(plane));
+            (arcs, missing.map(|plane| (&codes::ARC_AS_LINES, why(plane))))
+        }
+        PassShape::Curves => match curves::form(capabilities, by_turn) {
+            Ok(form) => (Allowed { arcs: false, curves: Some(form) }, None),
+            Err(obstacle) => (arcs, Some((&codes::NO_NURBS, obstacle.text(name)))),
+        },
     }
 }
 
@@ -189,17 +235,29 @@ struct Task<'a> {
     room: &'a [f64],
 }
 
-fn fit(task: &Task<'_>, pass: &Pass, capabilities: &Capabilities) -> Result<Chain, Trouble> {
+fn fit(task: &Task<'_>, allowed: Allowed, capabilities: &Capabilities) -> Result<Chain, Trouble> {
     let ([first, last], [head, tail]) = (task.contacts, task.ends);
     let chart = Chart::new(&task.track, 0.015 * (task.high - task.low), (first, last))
         .ok_or_else(|| lost(&task.track))?;
     let lines = task.best(&chart, head, tail);
-    if !pass.arcs || no_arcs(pass, capabilities).is_some() {
-        return lines;
-    }
-    match (arcs::chain(task, &chart, (head, tail), capabilities), lines) {
-        (Some(arcs), Ok(lines)) => Ok(if arcs.len() < lines.len() { arcs } else { lines }),
-        (Some(arcs), Err(_)) => Ok(arcs),
+    let ends = (head, tail);
+    let (bent, blocks) = match allowed {
+        Allowed { curves: Some(form), .. } => {
+            let most = lines.as_ref().map_or(usize::MAX, Vec::len);
+            let chain = curves::chain(task, &chart, ends, (form, capabilities), most);
+            let blocks = chain.as_ref().map_or(0, |chain| curves::blocks(chain, form));
+            (chain, blocks)
+        }
+        Allowed { arcs: true, .. } => {
+            let chain = arcs::chain(task, &chart, ends, capabilities);
+            let blocks = chain.as_ref().map_or(0, Vec::len);
+            (chain, blocks)
+        }
+        Allowed { .. } => (None, 0),
+    };
+    match (bent, lines) {
+        (Some(bent), Ok(lines)) => Ok(if blocks < lines.len() { bent } else { lines }),
+        (Some(bent), Err(_)) => Ok(bent),
         (None, lines) => lines,
     }
 }
@@ -207,12 +265,6 @@ fn fit(task: &Task<'_>, pass: &Pass, capabilities: &Capabilities) -> Result<Chai
 /// A pass that loses the surface, told at its middle.
 fn lost(track: &Track) -> Trouble {
     Trouble { at: track.at(0.5, None).map_or_else(Point3::origin, |c| c.centre), lost: true }
-}
-
-/// The plane in which a pass could be arcs, where the control has none in it.
-fn no_arcs(pass: &Pass, capabilities: &Capabilities) -> Option<Plane> {
-    let plane = arcs::plane_of(&pass.track.guide)?;
-    (!(capabilities.arcs && capabilities.planes.contains_key(&plane))).then_some(plane)
 }
 
 impl<'a> Task<'a> {
@@ -261,7 +313,7 @@ impl<'a> Task<'a> {
                 Err(at) => trouble = at,
             }
         }
-        let line = |v: &Vertex| Step { to: v.steps, arc: None };
+        let line = |v: &Vertex| Step { to: v.steps, form: Form::Line };
         best.map(|chain| chain.iter().map(line).collect()).ok_or(trouble)
     }
 
@@ -474,12 +526,10 @@ impl<'a> Task<'a> {
         stays(&track.tree, &track.cutter, way, &question, &from.foot)
     }
 
-    /// Whether an arc from a vertex stays in the band.
-    fn follows(&self, from: &Vertex, arc: &circle::Helix) -> bool {
+    /// Whether a bent way of the centre stays in the band; `foot` is near its start.
+    fn follows(&self, way: &Way<'_>, foot: &Foot) -> bool {
         let (question, track) = (self.question(), &self.track);
-        let at = |x: f64| arc.at(x);
-        let way = Way { at: &at, bend: arc.bend() };
-        bent::along(&track.tree, &track.cutter, &way, &question, Some(&from.foot)).is_some_and(|found| {
+        bent::along(&track.tree, &track.cutter, way, &question, Some(foot)).is_some_and(|found| {
             found.least.distance >= question.enough - 2.0 * SLACK
                 && found.most.distance <= question.little + 2.0 * SLACK
         })

@@ -52,21 +52,26 @@ impl Lattice {
     /// The centre of a ball whose tip is at a vertex, mm.
     #[allow(clippy::cast_precision_loss)]
     pub(super) fn centre(&self, steps: [i64; 3]) -> Point3 {
-        let [x, y, z] = steps.map(|s| s as f64 * self.step);
-        Point3::new(x, y, z + self.tip)
+        self.raised(Point3::from(steps.map(|s| s as f64 * self.step)))
+    }
+
+    /// The centre of a ball whose tip is at a place.
+    pub(super) fn raised(&self, tip: Point3) -> Point3 {
+        Point3::new(tip.x, tip.y, tip.z + self.tip)
+    }
+
+    /// The place of the grid nearest to the tip of a ball with this centre; `None` beyond what integers hold.
+    pub(super) fn nearest(&self, centre: Point3) -> Option<[i64; 3]> {
+        let tip = [centre.x, centre.y, centre.z - self.tip].map(|c| (c / self.step).round());
+        // Far below 2^63.
+        tip.iter().all(|b| b.abs() < 9e15).then(|| tip.map(|b| b as i64))
     }
 
     /// The vertex near `contact` in the direction `n` of it, whose distance along the normal comes nearest to `off` and lies
     /// in `range`.
     pub(super) fn vertex(&self, contact: &Contact, off: f64, range: (f64, f64), n: Vec3) -> Option<Vertex> {
         let ideal = contact.centre + n * (off / n.dot(&contact.normal).max(0.05));
-        let tip = Point3::new(ideal.x, ideal.y, ideal.z - self.tip);
-        let base = [tip.x, tip.y, tip.z].map(|c| (c / self.step).round());
-        if !base.iter().all(|b| b.abs() < 9e15) {
-            return None;
-        }
-        // |base| is far below 2^63.
-        let base = base.map(|b| b as i64);
+        let base = self.nearest(ideal)?;
         let mut best: Option<(f64, Vertex)> = None;
         for k in 0..27i64 {
             let shift = [k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1];

@@ -26,7 +26,7 @@ use crate::diag::codes::planning as codes;
 use crate::geom::Point3;
 use crate::geom::surface::curvature::{Concavity, most_concave};
 use crate::geom::surface::{Contact, Cutter, SurfaceTree, Track};
-use crate::ir::{Band, CutterKind, NetEntity, Origin, Spacing, Surface};
+use crate::ir::{Band, CutterKind, NetEntity, Origin, PassShape, Spacing, Surface};
 use family::{Family, Leg};
 
 /// Accuracy of the smallest concave radius, mm.
@@ -271,7 +271,7 @@ impl Planner<'_> {
         };
         let index = self.begin(operation, origin);
         for run in legs.split_inclusive(|leg| leg.last) {
-            self.run((run, band, surface.arcs), tip, heights, origin);
+            self.run((run, band, surface.shape), tip, heights, origin);
         }
         self.emit(RecordKind::EndOperation(index), origin);
     }
@@ -279,7 +279,7 @@ impl Planner<'_> {
     /// One stay on the surface: onto it, along it, off it.
     fn run(
         &mut self,
-        (run, band, arcs): (&[Leg], Band, bool),
+        (run, band, shape): (&[Leg], Band, PassShape),
         tip: f64,
         heights: Heights,
         origin: Handle<Origin>,
@@ -299,7 +299,7 @@ impl Planner<'_> {
         }
         for leg in run {
             let pass =
-                Pass { track: leg.track.clone(), tip, band, link: leg.link, arcs, room: leg.room.clone() };
+                Pass { track: leg.track.clone(), tip, band, link: leg.link, shape, room: leg.room.clone() };
             self.emit(RecordKind::Pass(Box::new(pass)), origin);
         }
         let mut way_out = tips(&entry::onto(&last.track.reversed()));

@@ -12,6 +12,7 @@ use crate::geom::surface::swept::{Extremes, Question};
 use crate::readback::{Tilted, TracePath};
 use crate::verify::finding::{Finding, Text};
 use crate::verify::path::{Primitive, polar_bounds};
+use crate::verify::spline;
 use crate::verify::{ACCURACY, Case, Placed};
 
 /// A measured extreme.
@@ -60,7 +61,7 @@ const SIMULATED: f64 = 2e-3;
 /// Chords of moves in pictures of what is left, mm: far below what their colours tell apart.
 const DRAWN: f64 = 5e-5;
 /// Chords of moves along passes leave them by no more than this share of what may be left.
-const SWEPT: f64 = 4e-3;
+const SWEPT: f64 = 1e-2;
 /// Largest distances are told exactly where they are more than this share of `OUTTOL`; others are sampled.
 const OFF: f64 = 0.9;
 
@@ -280,12 +281,18 @@ enum Course<'a> {
     Tilted(&'a Tilted),
     /// A curve as seen along Z, and heights that are linear along it.
     Flat(Primitive, (f64, f64)),
+    /// A segment of a curve in space as seen along Z, and its heights as the X of another segment.
+    Space(Primitive, Primitive),
 }
 
 impl Course<'_> {
     fn of<'a>(placed: &Placed<'a>) -> Vec<Course<'a>> {
         if let TracePath::Tilted(arc) = &placed.cut.path {
             return vec![Course::Tilted(arc)];
+        }
+        if let TracePath::Space(curve) = &placed.cut.path {
+            let (plan, heights) = (Primitive::of(&placed.cut.path), spline::heights(curve));
+            return plan.into_iter().zip(heights).map(|(p, z)| Course::Space(p, z)).collect();
         }
         let primitives = Primitive::of(&placed.cut.path);
         let (a, b) = placed.cut.z;
@@ -301,6 +308,10 @@ impl Course<'_> {
                 let p = primitive.at(x).p;
                 Point3::new(p.x, p.y, low + (high - low) * x)
             }
+            Course::Space(plan, heights) => {
+                let (p, z) = (plan.at(x).p, heights.at(x).p.x);
+                Point3::new(p.x, p.y, z)
+            }
         }
     }
 
@@ -312,6 +323,7 @@ impl Course<'_> {
                 polar_bounds((r0, r1 - r0), arc.sweep)[1]
             }
             Course::Flat(primitive, _) => primitive.bounds()[1],
+            Course::Space(plan, heights) => crate::math::hypot(plan.bounds()[1], heights.bounds()[1]),
         }
     }
 }

@@ -345,10 +345,9 @@ impl<'a> Field<'a> {
 
     /// The most that a move leaves on a cell, if it is less than `of_interest`.
     fn on_all(&self, i: u32, corners: &[Corner; 4], sagitta: f64, of_interest: f64) -> f64 {
-        let within = self.finish.cutter.shrunk(sagitta);
-        let (Some((within, up)), Some(swept)) = (within, self.passes.get(i as usize)) else {
-            return f64::INFINITY;
-        };
+        let Some(swept) = self.passes.get(i as usize) else { return f64::INFINITY };
+        // Where a move is bent, the cutter on it holds a smaller one on its chord.
+        let Some((within, up)) = self.finish.cutter.shrunk(sagitta + swept.off) else { return f64::INFINITY };
         let mut most = 0.0f64;
         for corner in corners {
             most = most.max(self.height((&within, up), swept, corner, self.finish.leave));

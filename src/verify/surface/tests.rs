@@ -20,10 +20,15 @@ fn program(operation: &str) -> String {
 }
 
 fn build(operation: &str) -> Build {
+    build_for("linuxcnc", operation)
+}
+
+fn build_for(post: &str, operation: &str) -> Build {
     let mut files = MemoryFiles::default();
     files.0.insert("part.apt".to_owned(), program(operation));
-    let build = driver::build("part.apt", &files, &Options::default());
-    assert!(!build.has_errors(), "{operation}: {:#?}", build.diagnostics);
+    let options = Options { posts: vec![post.to_owned()], ..Options::default() };
+    let build = driver::build("part.apt", &files, &options);
+    assert!(!build.has_errors(), "{post}, {operation}: {:#?}", build.diagnostics);
     build
 }
 
@@ -112,6 +117,55 @@ fn an_arc_that_ends_too_deep_or_too_high_is_found() {
             arcs(&mut target, n, steps);
             let found = refused(cl, &target);
             assert!(found.contains(&code) || found.contains(&"E0802"), "{n} {steps}: {found:?}");
+        }
+    }
+}
+
+/// Blocks of the moves along passes and links: of a curve one for each control point after the first.
+fn blocks(build: &Build) -> usize {
+    let target = build.outputs[0].target.as_ref().expect("a target");
+    let of = |motion: &Motion| match motion {
+        Motion::Nurbs { curve, .. } => target.nurbs[*curve as usize].points.len() - 1,
+        Motion::Line { .. } => 1,
+        _ => 0,
+    };
+    let moves = target.blocks.iter().filter_map(|b| if let BlockKind::Motion(m) = &b.kind { Some(of(m)) } else { None });
+    moves.sum()
+}
+
+#[test]
+fn passes_take_fewer_points_of_curves_than_lines() {
+    for (post, along) in [
+        ("sinumerik", "U"),
+        ("sinumerik", "ISOCSP"),
+        ("mitsubishi", "V"),
+        ("mitsubishi", "X"),
+        ("fanuc", "Y"),
+        ("fanuc", "CONST"),
+    ] {
+        let [straight, bent] =
+            ["LINEAR", "NURBS"].map(|kind| build_for(post, &format!("ZIGZAG, {along}, {kind}, CUSP, 0.02")));
+        let (curves, lines) = (proof(&bent), proof(&straight));
+        assert!(2 * blocks(&bent) < blocks(&straight), "{post} {along}: {} {}", blocks(&bent), blocks(&straight));
+        assert!(curves.into.value <= 1e-6 && curves.out.value <= 0.01 + 1e-6, "{along}: {curves:?}");
+        assert!(curves.left.value <= curves.left_bound && curves.left_bound < 0.033, "{along}: {curves:?}");
+        assert!((curves.length - lines.length).abs() < 0.01 * lines.length, "{along}: {curves:?}");
+    }
+}
+
+#[test]
+fn a_curve_that_bends_too_deep_or_too_high_is_found() {
+    let build = build_for("mitsubishi", "ZIGZAG, U, NURBS, CUSP, 0.02");
+    let cl = build.cl.as_ref().expect("CL");
+    let curves = build.outputs[0].target.as_ref().expect("a target").nurbs.len();
+    for n in [0, curves / 3, curves - 1] {
+        for (steps, code) in [(-60, "E0820"), (60, "E0821")] {
+            let mut target = build.outputs[0].target.clone().expect("a target");
+            let points = &mut target.nurbs[n].points;
+            let middle = points.len() / 2;
+            points[middle].0.z += steps;
+            let found = refused_for("mitsubishi", cl, &target);
+            assert!(found.contains(&code), "{n} {steps}: {found:?}");
         }
     }
 }
@@ -215,7 +269,11 @@ fn bent(build: &Build, moved: &[(usize, i64)]) -> Vec<&'static str> {
 
 /// Codes with which the proof of a program fails.
 pub(super) fn refused(cl: &Cl, target: &TargetProgram) -> Vec<&'static str> {
-    let dialect = load("linuxcnc", &MemoryFiles::default(), &mut SourceMap::default()).expect("a post");
+    refused_for("linuxcnc", cl, target)
+}
+
+fn refused_for(post: &str, cl: &Cl, target: &TargetProgram) -> Vec<&'static str> {
+    let dialect = load(post, &MemoryFiles::default(), &mut SourceMap::default()).expect("a post");
     let written = write(&dialect, target, &cl.origins).expect("a text");
     let emitted = Emitted { text: written.text, lines: written.lines };
     let mut sink = Sink::default();

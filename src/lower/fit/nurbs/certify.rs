@@ -31,7 +31,7 @@ pub(super) struct Station {
 }
 
 /// Deviation of the spline's point at `t` in knot interval `i`, the foot sought from `near`.
-pub(super) fn station(spline: &Spline, stretch: &Stretch<'_>, i: usize, t: f64, near: f64) -> Station {
+pub(super) fn station(spline: &Spline<2>, stretch: &Stretch<'_>, i: usize, t: f64, near: f64) -> Station {
     let jet = spline.jet(i, t);
     let mut s = near;
     let mut f = stretch.at(s);
@@ -56,7 +56,7 @@ pub(super) fn station(spline: &Spline, stretch: &Stretch<'_>, i: usize, t: f64, 
 }
 
 /// Least and largest deviation, mm; without bound for a spline that runs back along the curve somewhere.
-pub(super) fn extremes(spline: &Spline, stretch: &Stretch<'_>, start: f64) -> (f64, f64) {
+pub(super) fn extremes(spline: &Spline<2>, stretch: &Stretch<'_>, start: f64) -> (f64, f64) {
     let mut found = (f64::INFINITY, f64::NEG_INFINITY);
     let mut near = start;
     for i in ORDER - 1..spline.points.len() {
@@ -77,7 +77,7 @@ pub(super) fn extremes(spline: &Spline, stretch: &Stretch<'_>, start: f64) -> (f
 }
 
 fn search(
-    spline: &Spline,
+    spline: &Spline<2>,
     stretch: &Stretch<'_>,
     i: usize,
     [a, b]: [Station; 2],
@@ -106,7 +106,7 @@ fn search(
 
 /// Evenly spread stations of every knot interval, `pieces` to an interval, both ends included once.
 pub(super) fn stations(
-    spline: &Spline,
+    spline: &Spline<2>,
     stretch: &Stretch<'_>,
     start: f64,
     pieces: u32,

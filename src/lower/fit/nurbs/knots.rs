@@ -20,6 +20,11 @@ pub enum Knots {
 }
 
 impl Knots {
+    /// Control points (or pieces) of a spline of `n` knot intervals.
+    pub(in crate::lower) fn blocks(self, n: usize) -> usize {
+        n + self.more_blocks()
+    }
+
     /// Blocks of a spline, beyond one for every knot interval.
     pub(super) fn more_blocks(self) -> usize {
         match self {

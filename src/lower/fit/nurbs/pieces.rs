@@ -10,11 +10,11 @@ use crate::lower::pieces::rounded;
 /// The pieces of a spline between `ends` as a spline with threefold inner knots, and its control points in steps of the
 /// grid divided by 10^`finer`. `None` beyond what the grid holds.
 pub(super) fn cut(
-    spline: &Spline,
+    spline: &Spline<2>,
     grid: &Grid,
     ends: [[i64; 2]; 2],
     finer: u8,
-) -> Option<(Spline, Vec<[i64; 2]>)> {
+) -> Option<(Spline<2>, Vec<[i64; 2]>)> {
     let points: Vec<Point3> = spline.points.iter().map(|p| Point3::new(p.x, p.y, 0.0)).collect();
     let parts: Vec<[Point3; ORDER]> = segments(&points, &spline.knots).collect();
     let lift = |[x, y]: [i64; 2]| [x, y, 0];

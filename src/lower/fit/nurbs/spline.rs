@@ -1,32 +1,32 @@
 //! Clamped cubic B-splines: basis functions by de Boor's recursion, points and derivatives.
 
-use crate::geom::{Point2, Vec2};
+use nalgebra::{Const, OPoint, SVector};
 
 /// Order (degree + 1) of every curve fitted here.
-pub(super) const ORDER: usize = 4;
+pub(in crate::lower) const ORDER: usize = 4;
 
-/// A clamped cubic B-spline curve without weights.
+/// A clamped cubic B-spline curve without weights, in D dimensions.
 #[derive(Debug, Clone)]
-pub(super) struct Spline {
+pub(in crate::lower) struct Spline<const D: usize> {
     /// Knots, points + [`ORDER`] of them, the first and last repeated [`ORDER`] times.
     pub knots: Vec<f64>,
     /// Control points, mm.
-    pub points: Vec<Point2>,
+    pub points: Vec<OPoint<f64, Const<D>>>,
 }
 
 /// Point and derivatives by the parameter.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Jet {
+pub(in crate::lower) struct Jet<const D: usize> {
     /// Point, mm.
-    pub p: Point2,
+    pub p: OPoint<f64, Const<D>>,
     /// First derivative.
-    pub d: Vec2,
+    pub d: SVector<f64, D>,
     /// Second derivative.
-    pub dd: Vec2,
+    pub dd: SVector<f64, D>,
 }
 
 /// Clamped knots around ascending interior knots.
-pub(super) fn clamped(first: f64, inside: &[f64], last: f64) -> Vec<f64> {
+pub(in crate::lower) fn clamped(first: f64, inside: &[f64], last: f64) -> Vec<f64> {
     let mut knots = vec![first; ORDER];
     knots.extend_from_slice(inside);
     knots.extend([last; ORDER]);
@@ -34,7 +34,7 @@ pub(super) fn clamped(first: f64, inside: &[f64], last: f64) -> Vec<f64> {
 }
 
 /// Index i of the knot interval [k_i, k_{i+1}) of positive length that holds `t`.
-pub(super) fn interval(knots: &[f64], t: f64) -> usize {
+pub(in crate::lower) fn interval(knots: &[f64], t: f64) -> usize {
     let points = knots.len() - ORDER;
     let mut i = knots.partition_point(|k| *k <= t).clamp(ORDER, points) - 1;
     while i > ORDER - 1 && knots[i + 1] <= knots[i] {
@@ -44,7 +44,7 @@ pub(super) fn interval(knots: &[f64], t: f64) -> usize {
 }
 
 /// The four basis functions that do not vanish on interval `i`, at `t`: those of points i - 3 … i.
-pub(super) fn basis(knots: &[f64], i: usize, t: f64) -> [f64; ORDER] {
+pub(in crate::lower) fn basis(knots: &[f64], i: usize, t: f64) -> [f64; ORDER] {
     let mut b = [1.0, 0.0, 0.0, 0.0];
     for degree in 1..ORDER {
         raise(knots, i, t, degree, &mut b);
@@ -64,7 +64,7 @@ fn raise(knots: &[f64], i: usize, t: f64, degree: usize, b: &mut [f64; ORDER]) {
     b[degree] = saved;
 }
 
-impl Spline {
+impl<const D: usize> Spline<D> {
     /// First and last parameter.
     #[cfg(test)]
     pub fn domain(&self) -> (f64, f64) {
@@ -72,11 +72,11 @@ impl Spline {
     }
 
     /// Point and derivatives at `t`, by blossoming on interval `i`.
-    pub fn jet(&self, i: usize, t: f64) -> Jet {
+    pub fn jet(&self, i: usize, t: f64) -> Jet<D> {
         let k = &self.knots;
-        let mut q: [Vec2; ORDER] = core::array::from_fn(|j| self.points[i + 1 + j - ORDER].coords);
+        let mut q: [SVector<f64, D>; ORDER] = core::array::from_fn(|j| self.points[i + 1 + j - ORDER].coords);
         // Degree 3 → 2 → 1: after two rounds the difference gives the derivatives.
-        let mix = |q: &mut [Vec2; ORDER], round: usize| {
+        let mix = |q: &mut [SVector<f64, D>; ORDER], round: usize| {
             for j in (round..ORDER).rev() {
                 let (low, high) = (k[i + 1 + j - ORDER], k[i + 1 + j - round]);
                 let x = (t - low) / (high - low);
@@ -89,11 +89,11 @@ impl Spline {
         let h = k[i + 1] - k[i];
         let d = (q[3] - q[2]) * (3.0 / h);
         mix(&mut q, 3);
-        Jet { p: Point2::from(q[3]), d, dd: second }
+        Jet { p: OPoint::from(q[3]), d, dd: second }
     }
 
     /// Second derivative from the points after the first round.
-    fn second(&self, q: &[Vec2; ORDER], i: usize) -> Vec2 {
+    fn second(&self, q: &[SVector<f64, D>; ORDER], i: usize) -> SVector<f64, D> {
         let k = &self.knots;
         let a = (q[2] - q[1]) / (k[i + 1] - k[i - 1]);
         let b = (q[3] - q[2]) / (k[i + 2] - k[i]);
@@ -104,8 +104,9 @@ impl Spline {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geom::{Point2, Vec2};
 
-    fn example() -> Spline {
+    fn example() -> Spline<2> {
         let knots = clamped(0.0, &[1.0, 1.5, 4.0, 4.0], 6.0);
         let points = (0..8).map(|i| Point2::new(f64::from(i * i % 7), f64::from(i * 5 % 11))).collect();
         Spline { knots, points }
