@@ -49,8 +49,10 @@ const POSTS: [&str; 9] = [
 ];
 /// Programs of which all posts' texts are looked at, and those that show what a post is for.
 const SHOWN: [&str; 2] = ["plate_cam.apt", "nx_cover.cls"];
-const OWN: [(&str, &str); 4] = [
+const OWN: [(&str, &str); 6] = [
     ("net_arcs.apt", "sinumerik_cip"),
+    ("net_nurbs.apt", "itnc530"),
+    ("net_nurbs.apt", "sinumerik_poly"),
     ("plate_cam_nurbs.apt", "itnc530"),
     ("plate_cam_nurbs.apt", "linuxcnc_g5"),
     ("plate_cam_nurbs.apt", "sinumerik_poly"),

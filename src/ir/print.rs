@@ -7,8 +7,8 @@ use core::fmt::Write as _;
 
 use super::{
     Along, CamEntity, Coolant, CurveEntity, Cut, CutterKind, Entry, Feed, Flank, Interpolation, Machine,
-    NetEntity, Origin, PassShape, Profile, ProfileTarget, Program, RoughCam, RoughNet, Spacing, Spindle, StepKind,
-    Stock, StockShape, Surface, Tool,
+    NetEntity, Origin, PassShape, Profile, ProfileTarget, Program, RoughCam, RoughNet, Spacing, Spindle,
+    StepKind, Stock, StockShape, Surface, Tool,
 };
 use crate::arena::Handle;
 use crate::geom::cam::Rotation;

@@ -171,7 +171,7 @@ impl Analyser<'_> {
             Some("NURBS") => PassShape::Curves,
             _ => PassShape::Lines,
         };
-        if shape == PassShape::Arcs && !tool.is_none_or(|tool| self.in_planes(m, tool)) {
+        if shape != PassShape::Lines && !self.may_bend(m, shape, tool) {
             return;
         }
         let Some(Entity::Net(net)) = m.entity("net") else { return };
@@ -297,18 +297,20 @@ impl Analyser<'_> {
         self.no_cutter(m, tool, message, help)
     }
 
-    /// Whether passes lie in planes, and the proof of arcs in them knows the cutter.
-    fn in_planes(&mut self, m: &Matched, tool: Handle<Tool>) -> bool {
-        let cutter = &self.program.tools[tool];
-        let (message, help) = if !matches!(along(m), Along::X | Along::Y) {
+    /// Whether passes may be arcs or curves: arcs lie in planes, and a sharp corner touches the surface leap by leap.
+    fn may_bend(&mut self, m: &Matched, shape: PassShape, tool: Option<Handle<Tool>>) -> bool {
+        let sharp = tool
+            .map(|tool| &self.program.tools[tool])
+            .filter(|cutter| cutter.solid().is_some_and(|solid| solid.corner() <= 0.0));
+        let (message, help) = if shape == PassShape::Arcs && !matches!(along(m), Along::X | Along::Y) {
             (
                 "passes along U and V and bent ones do not lie in planes: no arc follows them".to_owned(),
-                "write `X` or `Y` for passes in planes, or `LINEAR`",
+                "write `X` or `Y` for passes in planes, `NURBS` for curves in space, or `LINEAR`",
             )
-        } else if cutter.kind != CutterKind::Ball {
+        } else if let Some(cutter) = sharp {
             (
-                format!("arcs are proven for ball-end cutters, and {} is none", cutter.name),
-                "write `LINEAR`, or take a ball-end cutter",
+                format!("{} has a sharp corner, whose path over a surface is no smooth one", cutter.name),
+                "write `LINEAR`, or take a cutter with a corner radius",
             )
         } else {
             return true;

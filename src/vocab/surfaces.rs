@@ -140,8 +140,8 @@ const SURFAC: &[Form] = &[form(
             "interpolation",
             &[
                 word("LINEAR", "straight lines"),
-                word("CIRCUL", "arcs in the control's XZ and YZ planes, for ball-end cutters along X and Y"),
-                word("NURBS", "curves of the control in space; else arcs as above"),
+                word("CIRCUL", "arcs in the control's XZ and YZ planes, along X and Y"),
+                word("NURBS", "curves of the control in space; else arcs, along X and Y"),
             ],
             "LINEAR",
         ),

@@ -224,7 +224,12 @@ impl<'a> Along<'a> {
         let share = if b.s > a.s { ((s - a.s) / (b.s - a.s)).clamp(0.0, 1.0) } else { 0.0 };
         let mix = |a: Vec3, b: Vec3| (a + (b - a) * share).try_normalize(0.0).unwrap_or(a);
         let centre = a.centre + (b.centre - a.centre) * share;
-        Place { s: a.s + (b.s - a.s) * share, centre, normal: mix(a.normal, b.normal), way: mix(a.way, b.way) }
+        Place {
+            s: a.s + (b.s - a.s) * share,
+            centre,
+            normal: mix(a.normal, b.normal),
+            way: mix(a.way, b.way),
+        }
     }
 
     /// The place of the track beside a point, from about station `j` on, which is moved there.
@@ -322,7 +327,8 @@ impl<'a> Along<'a> {
         let mut from = self.ends[0].steps;
         let mut out = Vec::new();
         for (i, part) in parts.iter().enumerate() {
-            let to = if i + 1 == parts.len() { self.ends[1].steps } else { lattice.nearest(part[ORDER - 1])? };
+            let to =
+                if i + 1 == parts.len() { self.ends[1].steps } else { lattice.nearest(part[ORDER - 1])? };
             let points = pieces::rounded(part, [from, to], lattice.step, finer)?;
             out.push(pieces::nurbs(points, 0, finer));
             from = to;

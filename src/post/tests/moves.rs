@@ -154,7 +154,7 @@ fn nurbs_are_spelled_as_the_control_wants() {
     assert_eq!(
         fanuc.rest(),
         [
-            "G6.2 P4 K0. X0. Y0. R1. F300.",
+            "G6.2 P4 K0. X0. Y0. Z0. R1. F300.",
             "K0. X1. Y0. R1.",
             "K0. X1. Y1. R0.5",
             "K0. X0. Y1. R1.",
@@ -190,7 +190,7 @@ fn curves_that_climb_say_their_heights() {
     };
     let fanuc = Sheet::at("fanuc", 0, 0).nurbs(climb.clone()).line(0, 0);
     let points = [
-        "G6.2 P4 K0. X0. Y0. R1. F300.",
+        "G6.2 P4 K0. X0. Y0. Z0. R1. F300.",
         "K0. X1. Y0. Z0. R1.",
         "K0. X2. Y0. Z0.5 R1.",
         "K0. X3. Y0. Z1. R1.",

@@ -13,6 +13,9 @@ use crate::readback::{FeedMode, Follow, SpaceCurve, TracePath};
 /// Most control points of one curve; a control's memory is smaller.
 const MOST_POINTS: usize = 1_000_000;
 
+/// Axes of control points.
+const AXES: [u8; 3] = [b'X', b'Y', b'Z'];
+
 /// A curve whose blocks are being read.
 #[derive(Debug, Default)]
 pub(super) struct Open {
@@ -26,6 +29,8 @@ pub(super) struct Open {
     spoilt: bool,
     /// Line of the last control point.
     line: u32,
+    /// The axes of the first block (Fanuc).
+    named: [bool; 3],
 }
 
 impl Open {
@@ -306,6 +311,7 @@ impl Machine<'_> {
         }
         self.nurbs.begin(rank);
         self.nurbs.spoilt = !fine;
+        self.nurbs.named = AXES.map(|axis| block.has(axis));
         let target = self.target(block, out);
         if target.to != self.state.position {
             let u = self.unit();
@@ -350,6 +356,12 @@ impl Machine<'_> {
             self.nurbs.spoilt = true;
             return out.fault("alarm PS1004, a control point after the closing knots began");
         }
+        for (axis, named) in AXES.into_iter().zip(self.nurbs.named) {
+            if block.has(axis) && !named {
+                self.nurbs.spoilt = true;
+                out.fault(format!("{} is no axis of the first block of this G06.2", char::from(axis)));
+            }
+        }
         let target = self.target(block, out);
         let weight = block.get(b'R').unwrap_or(1.0);
         if weight <= 0.0 {
@@ -380,7 +392,7 @@ impl Machine<'_> {
 
 /// Whether the block says a control point.
 fn has_point(block: &Block) -> bool {
-    [b'X', b'Y', b'Z'].into_iter().any(|axis| block.has(axis))
+    AXES.into_iter().any(|axis| block.has(axis))
 }
 
 /// What is wrong with a clamped knot vector of this order.

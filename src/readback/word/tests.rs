@@ -370,12 +370,15 @@ fn a_nurbs_of_fanuc_obeys_its_knot_rules() {
         ("\nK2.\nK2.", "\nK2.\nX1. Y1. K2.", 14, "PS1004"),
         ("P3", "P7", 9, "rank P7"),
         ("K1. X10. Y4. R1.", "K1. X10. Y4. R0.", 12, "positive weight"),
+        ("K1. X10. Y4. R1.", "K1. X10. Y4. Z-1. R1.", 12, "Z is no axis of the first block"),
     ] {
         let got = trace("fanuc", &fanuc(&good.replacen(from, to, 1))).faults;
         assert!(got.iter().any(|f| f.line == line && f.message.contains(words)), "{words}: {got:#?}");
     }
-    let climbing =
-        good.replace("X12. Y2. R2.", "X12. Y2. Z7. R2.").replace("X10. Y4. R1.", "X10. Y4. Z9. R1.");
+    let climbing = good
+        .replace("X10. Y0. R1.", "X10. Y0. Z5. R1.")
+        .replace("X12. Y2. R2.", "X12. Y2. Z7. R2.")
+        .replace("X10. Y4. R1.", "X10. Y4. Z9. R1.");
     let moves = clean("fanuc", &fanuc(&climbing));
     let TracePath::Space(curve) = &moves[1].path else { panic!("{:?}", moves[1]) };
     assert_eq!(curve.points.iter().map(|p| p.z).collect::<Vec<_>>(), [5.0, 5.0, 7.0, 9.0]);

@@ -92,8 +92,7 @@ impl<C: Course<D>, const D: usize> Engine<'_, C, D> {
     pub fn fit(&self, shares: &Shares) -> Result<(usize, C::Printed), f64> {
         let limit = self.course.limit();
         let guess = self.count(shares, limit);
-        let most =
-            (GROWTH * guess + SPARE).min(MOST).min(self.most.saturating_sub(self.knots.more_blocks()));
+        let most = (GROWTH * guess + SPARE).min(MOST).min(self.most.saturating_sub(self.knots.more_blocks()));
         let mut n = if guess as f64 > HOPELESS * most as f64 { most + 1 } else { guess.min(most) };
         let mut best = None;
         let (mut needed, mut refused) = (f64::INFINITY, 0);
