@@ -279,7 +279,9 @@ fn challenge(
         (Interpolation::Linear, Some(most)) => !fit::bound::lines_may_be(tube, &grid, most)?,
         (Interpolation::RTheta, Some(most)) => !fit::bound::spirals_may_be(tube, &grid, most)?,
         (Interpolation::Nurbs, Some(most)) => {
-            let fit = fit::nurbs_of(tube, &grid, knots(capabilities), contour.start, most.saturating_sub(1))?;
+            let more = 1 + capabilities.nurbs.map_or(0, NurbsForm::more_blocks);
+            let most = most.saturating_sub(more);
+            let fit = fit::nurbs_of(tube, &grid, knots(capabilities), contour.start, most)?;
             return Ok(fit.map(|f| (f, kind)));
         }
         _ => false,

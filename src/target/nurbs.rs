@@ -23,6 +23,16 @@ pub enum NurbsForm {
 }
 
 impl NurbsForm {
+    /// Blocks of a curve beyond one for each of its control points (or pieces): closing knots, or a closing word.
+    #[must_use]
+    pub fn more_blocks(self) -> usize {
+        match self {
+            NurbsForm::G062 { .. } => crate::cl::spline::ORDER,
+            NurbsForm::G052 => 1,
+            NurbsForm::Pieces { .. } => 0,
+        }
+    }
+
     /// [`Nurbs::finer`] of curves of this form.
     #[must_use]
     pub fn finer(self) -> u8 {

@@ -85,7 +85,7 @@ pub(super) fn chain(
         if task.aside(&from, &to, ends) && task.holds(&from, to.steps) {
             out.push(Step { to: to.steps, form: Form::Line });
         } else {
-            let left = most.checked_sub(blocks(&out, form) + more_blocks(form))?;
+            let left = most.checked_sub(blocks(&out, form) + form.more_blocks())?;
             for curve in fitted((task, chart), *piece, [from, to], (form, left))? {
                 let fits = pieces::fits(&curve, capabilities.ranges.coefficient);
                 let end = curve.end().filter(|_| fits)?;
@@ -122,15 +122,6 @@ fn fitted(
     None
 }
 
-/// Blocks of a curve beyond those of its control points (or pieces).
-fn more_blocks(form: NurbsForm) -> usize {
-    match form {
-        NurbsForm::G062 { .. } => ORDER,
-        NurbsForm::G052 => 1,
-        NurbsForm::Pieces { .. } => 0,
-    }
-}
-
 fn knots(form: NurbsForm) -> Knots {
     match form {
         NurbsForm::G062 { knot_decimals } => Knots::Printed { decimals: u32::from(knot_decimals) },
@@ -143,7 +134,7 @@ fn knots(form: NurbsForm) -> Knots {
 pub(super) fn blocks(chain: &Chain, form: NurbsForm) -> usize {
     let of = |step: &Step| match (&step.form, form) {
         (Form::Curve(curve), NurbsForm::G062 { .. } | NurbsForm::G052) => {
-            curve.points.len() + more_blocks(form)
+            curve.points.len() + form.more_blocks()
         }
         _ => 1,
     };

@@ -170,6 +170,24 @@ fn arcs_and_curves_are_proven_for_a_corner_radius() {
 }
 
 #[test]
+fn passes_are_lines_where_there_are_no_curves_for_them() {
+    for (post, feed, why) in [
+        ("grbl", "800", "`grbl` has no NURBS"),
+        ("linuxcnc", "800", "in the XY plane only"),
+        ("fanuc", "0.1, MMPR", "feed is per revolution"),
+    ] {
+        let text = program("ZIGZAG, U, NURBS, STEP, 6").replace("FEDRAT/ 800", &format!("FEDRAT/ {feed}"));
+        let build = built(post, text);
+        let told = build.diagnostics.iter().find(|d| d.code.id == "N0603").expect("a note");
+        assert!(
+            told.message.starts_with("the passes are cut by lines") && told.message.contains(why),
+            "{told:?}"
+        );
+        assert!(build.outputs[0].target.as_ref().expect("a target").nurbs.is_empty(), "{post}");
+    }
+}
+
+#[test]
 fn a_curve_that_bends_too_deep_or_too_high_is_found() {
     let build = build_for("mitsubishi", "ZIGZAG, U, NURBS, CUSP, 0.02");
     let cl = build.cl.as_ref().expect("CL");
