@@ -177,6 +177,10 @@ impl Analyser<'_> {
         let Some(Entity::Net(net)) = m.entity("net") else { return };
         let net = *net;
         let (Some(tool), Some(spacing)) = (tool, spacing) else { return };
+        let leave = m.number("leave").unwrap_or(self.state.thick);
+        if !self.has_room(m, tool, leave) {
+            return;
+        }
         let surface = Surface {
             name,
             net,
@@ -185,7 +189,7 @@ impl Analyser<'_> {
             spacing,
             avoid: !m.all("gouge").any(|f| matches!(f.typed, Typed::Word("CHECK"))),
             tool,
-            leave: m.number("leave").unwrap_or(self.state.thick),
+            leave,
             band: self.state.band,
             clearance: self.state.clearance,
             stock_top: self.stock_top(),
@@ -316,6 +320,22 @@ impl Analyser<'_> {
             return true;
         };
         self.report(Diagnostic::new(&planning::NO_ARCS, m.word, message).help(help));
+        false
+    }
+
+    /// Whether the band has room for a path: a sharp corner has no hull inside of itself, so that `INTOL` alone gives it none.
+    fn has_room(&mut self, m: &Matched, tool: Handle<Tool>, leave: f64) -> bool {
+        let cutter = &self.program.tools[tool];
+        let rounded = cutter.solid().is_none_or(|solid| solid.corner() + leave > 0.0);
+        if rounded || self.state.band.out > 0.0 {
+            return true;
+        }
+        let message = format!("{} has a sharp corner, and OUTTOL is 0: no path can keep that", cutter.name);
+        let mut problem = Diagnostic::new(&codes::NO_TOLERANCE, m.word, message);
+        if let Some(at) = self.state.band_at {
+            problem = problem.label(at, "the last of INTOL and OUTTOL");
+        }
+        self.report(problem.help("write `OUTTOL/ 0.01`, for example, or take a cutter with a corner radius"));
         false
     }
 

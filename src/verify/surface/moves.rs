@@ -62,7 +62,7 @@ const SIMULATED: f64 = 2e-3;
 const DRAWN: f64 = 5e-5;
 /// Chords of moves along passes leave them by no more than this share of what may be left.
 const SWEPT: f64 = 1e-2;
-/// Largest distances are told exactly where they are more than this share of `OUTTOL`; others are sampled.
+/// Largest distances are told exactly where they are more than this share of what is allowed; others are sampled.
 const OFF: f64 = 0.9;
 
 /// Checks all moves; findings are appended.
@@ -176,7 +176,7 @@ fn one(case: &Case<'_>, operation: &Operation, finish: &Finish, placed: &Placed<
 /// How far a move along a pass is off the surface, and its ways through the stock.
 fn followed(operation: &Operation, finish: &Finish, placed: &Placed<'_>) -> (Extremes, Vec<Swept>) {
     let ball = finish.cutter.corner() + finish.leave;
-    let little = ball + OFF * operation.band.out;
+    let little = ball + OFF * (operation.band.out - placed.cut.path_tolerance).max(0.0);
     let question = Question { enough: ball, little, accuracy: 0.5 * ACCURACY };
     let (from, to) = (raised(finish, placed.cut.start()), raised(finish, placed.cut.end()));
     let swept = |from, to, off| Swept { from, to, off, line: placed.line, block: placed.block };

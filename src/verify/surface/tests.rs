@@ -170,6 +170,17 @@ fn arcs_and_curves_are_proven_for_a_corner_radius() {
 }
 
 #[test]
+fn curves_leave_the_control_its_share_of_a_band_to_both_sides() {
+    let text = program("ZIGZAG, U, NURBS, STEP, 4")
+        .replace("BALL, 6", "TAPER, 6, 2, ANGLE, 5")
+        .replace("INTOL/ 0", "INTOL/ 0.01");
+    let found = proof(&built("sinumerik", text));
+    // A quarter of the band is CYCLE832's.
+    assert!(found.into.value > 0.005 && found.into.value <= 0.0075 + 1e-6, "{found:?}");
+    assert!(found.out.value > 0.005 && found.out.value <= 0.0075 + 1e-6, "{found:?}");
+}
+
+#[test]
 fn passes_are_lines_where_there_are_no_curves_for_them() {
     for (post, feed, why) in [
         ("grbl", "800", "`grbl` has no NURBS"),
