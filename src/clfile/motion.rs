@@ -139,7 +139,7 @@ impl Reader<'_> {
     }
 
     /// No tool is there and none has been called: nothing can be moved to a point yet.
-    fn before_first_tool(&self) -> bool {
+    pub(super) fn before_first_tool(&self) -> bool {
         self.state.loaded.is_none() && self.state.load.is_none()
     }
 
@@ -192,6 +192,11 @@ impl Reader<'_> {
                 &planning::SPINDLE_OFF,
                 "the file cuts before it starts the spindle",
                 "give the speed in the CAM system, or with -D SPINDL=1200",
+            ),
+            "SPINDL/ OFF" => (
+                &planning::SPINDLE_OFF,
+                "the file cuts while the spindle stands",
+                "start it before these moves, or make them RAPID",
             ),
             "FEDRAT" => (
                 &planning::NO_FEED,
@@ -250,7 +255,12 @@ impl Reader<'_> {
 
     fn delta(&mut self, numbers: &[f64]) {
         let by = match *numbers {
-            [x, y, z] | [x, y, z, _] => [x, y, z],
+            [x, y, z] => [x, y, z],
+            // A feed behind it, as behind a point.
+            [x, y, z, feed] => {
+                self.set_feed_number(feed);
+                [x, y, z]
+            }
             [z] => [0.0, 0.0, z],
             _ => return self.complain(&codes::BAD_RECORD, "GODLTA takes 3 numbers".to_owned()),
         };

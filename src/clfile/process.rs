@@ -130,7 +130,8 @@ impl Reader<'_> {
             self.cut_cycle();
             self.state.spindle = Some(Spindle::Off);
             self.flush_tool_if_waiting();
-            self.state.spindle_recorded = true;
+            // A cut from here on lacks its spindle.
+            self.state.spindle_recorded = false;
             self.state.spindle_due = false;
             return self.emit(RecordKind::Spindle(Spindle::Off));
         }
@@ -210,7 +211,8 @@ impl Reader<'_> {
                 self.state.spindle_due = false;
                 self.emit(RecordKind::Spindle(on));
             }
-            _ => self.lacks("SPINDL"),
+            Some(Spindle::Off) => self.lacks("SPINDL/ OFF"),
+            None => self.lacks("SPINDL"),
         }
     }
 
@@ -230,6 +232,11 @@ impl Reader<'_> {
 
     /// What is on already needs no record.
     pub(super) fn switch_coolant(&mut self, coolant: Coolant) {
+        if self.before_first_tool() {
+            // On the machine as it stands it would run until the tool is changed.
+            self.state.first_coolant = (coolant != Coolant::Off).then_some((coolant, self.span));
+            return;
+        }
         self.flush_tool_if_waiting();
         if self.state.coolant != Some(coolant) {
             self.state.coolant = Some(coolant);

@@ -349,7 +349,9 @@ impl<'t> Reader<'t> {
     fn look_behind(&mut self) {
         let silent = |line: &str| {
             let word = line.trim();
-            nothing(word) || word.starts_with("$$") || matches!(word, "FINI" | "END" | "END-OF-PATH")
+            nothing(word)
+                || word.starts_with("$$")
+                || matches!(word.trim_end_matches(['/', ' ']), "FINI" | "END" | "END-OF-PATH")
         };
         while let Some((line, start)) = self.lines.line() {
             if !silent(without_number(line.trim())) {
@@ -368,6 +370,7 @@ impl<'t> Reader<'t> {
         }
         self.leave_cycle();
         self.end_operation();
+        self.tell_doubt();
         if let Some(trouble) = self.axis_trouble.take() {
             self.report_axis(&trouble);
         }

@@ -3,7 +3,7 @@
 use super::circle::Pending;
 use super::cycle::Asked;
 use super::nurbs::Spans;
-use super::tool::{Data, Load};
+use super::tool::{Data, Doubt, Load};
 use crate::geom::{Point3, Vec3};
 use crate::ir::{Band, Coolant, Feed, Spindle};
 use crate::source::Span;
@@ -35,6 +35,8 @@ pub(super) struct State {
     pub spindle_due: bool,
     /// As last switched in the CL data.
     pub coolant: Option<Coolant>,
+    /// Coolant that the file wants with the first tool, said before its change.
+    pub first_coolant: Option<(Coolant, Span)>,
     /// Gear range of the spindle.
     pub range: crate::ir::Gear,
     /// Speed for `SPINDL/ ON`.
@@ -43,6 +45,7 @@ pub(super) struct State {
     pub sense_of_tool: bool,
     pub band: Band,
     pub tool: Data,
+    pub doubt: Option<Doubt>,
     pub load: Option<Load>,
     pub loaded: Option<crate::arena::Handle<crate::ir::Tool>>,
     pub circle: Option<Pending>,
@@ -102,11 +105,13 @@ impl State {
             spindle_recorded: false,
             spindle_due: false,
             coolant: None,
+            first_coolant: None,
             range: crate::ir::Gear::Any,
             last_speed: None,
             sense_of_tool: false,
             band: Band { into: BAND, out: BAND },
             tool: Data::default(),
+            doubt: None,
             load: None,
             loaded: None,
             circle: None,

@@ -20,9 +20,21 @@ pub(super) struct Data {
     drill: bool,
     /// It was stated for a tool that has not been changed in yet.
     fresh: bool,
-    /// It was stated since the tool moved last.
+    /// It was stated since the tool moved last, or it is doubted and what follows may tell that the next tool has it.
     pub unseen: bool,
 }
+
+/// A cutter that is not that of the tool in the spindle, and that has not been taken for the next one's.
+#[derive(Debug, Clone)]
+pub(super) struct Doubt {
+    message: String,
+    span: Span,
+    /// Moves at feed since then.
+    cuts: u32,
+}
+
+/// The cutter of the next tool may stand before the last moves of the one before, of which so many are at feed.
+const LAST_CUTS: u32 = 1;
 
 /// A tool change that waits for what the file says of the tool.
 #[derive(Debug, Clone)]
@@ -95,6 +107,7 @@ impl Reader<'_> {
         let Some(d) = numbers.first().filter(|d| **d >= 0.0 && d.is_finite()) else {
             return self.complain(&codes::BAD_RECORD, "CUTTER starts with the diameter".to_owned());
         };
+        self.tell_doubt();
         let mut cutter = [0.0; 7];
         for ((slot, value), length) in cutter.iter_mut().zip(numbers).zip(LENGTHS) {
             *slot = if length { value * self.state.scale } else { value.to_radians() };
@@ -141,6 +154,7 @@ impl Reader<'_> {
         let Some(tool) = Some(tool.as_str()).filter(|t| !t.is_empty()) else { return };
         let same = self.state.tool.name.as_deref() == Some(tool) || self.named_behind(tool);
         if !same {
+            self.tell_doubt();
             self.state.tool = Data { name: Some(tool.to_owned()), ..Data::default() };
             self.state.sense_of_tool = false;
             self.state.load = Some(Load { number: None, words: String::new(), span: self.span });
@@ -233,6 +247,8 @@ impl Reader<'_> {
             return;
         };
         let span = core::mem::replace(&mut self.span, load.span);
+        // The cutter was that of this tool all along.
+        self.state.doubt = None;
         self.state.tool.fresh = false;
         self.state.tool.unseen = false;
         let data = self.state.tool.clone();
@@ -255,8 +271,10 @@ impl Reader<'_> {
             .iter()
             .find(|(_, t)| t.number == load.number && t.name == name && t.diameter == d && t.corner == r);
         let known = known.map(|(handle, _)| handle);
-        if known.is_none() {
-            self.other_cutter(load.number, d, r);
+        if known.is_none()
+            && let Some(message) = self.other_cutter(load.number, d, r)
+        {
+            self.complain(&codes::OTHER_CUTTER, message);
         }
         let tool = match known {
             Some(tool) => tool,
@@ -284,40 +302,67 @@ impl Reader<'_> {
         }
         self.span = span;
         self.forget_origin();
+        if let Some((coolant, span)) = self.state.first_coolant.take() {
+            let span = core::mem::replace(&mut self.span, span);
+            self.switch_coolant(coolant);
+            self.span = span;
+            self.forget_origin();
+        }
         self.go_to_first();
     }
 
-    /// A cutter that is said of the tool that is there already.
+    /// A cutter that is said of the tool that is there already, or early of the next one.
     #[cold]
     pub(super) fn see_cutter(&mut self) {
-        self.state.tool.unseen = false;
-        let number = self.state.loaded.and_then(|tool| self.tools[tool].number);
-        let [diameter, corner, ..] = self.state.tool.cutter;
-        self.other_cutter(number, diameter, corner);
+        if self.state.doubt.is_none() {
+            let number = self.state.loaded.and_then(|tool| self.tools[tool].number);
+            let [diameter, corner, ..] = self.state.tool.cutter;
+            let message = self.other_cutter(number, diameter, corner);
+            self.state.doubt = message.map(|message| Doubt { message, span: self.span, cuts: 0 });
+        }
+        let at_feed = !self.state.rapid;
+        let told = match &mut self.state.doubt {
+            Some(doubt) => {
+                doubt.cuts += u32::from(at_feed);
+                doubt.cuts > LAST_CUTS
+            }
+            None => true,
+        };
+        if told {
+            self.tell_doubt();
+            self.state.tool.unseen = false;
+        }
     }
 
-    /// A number that has been that of another cutter: in the machine it is one tool.
-    fn other_cutter(&mut self, number: Option<u32>, diameter: f64, corner: f64) {
+    /// The doubted cutter is one of the tool that is there.
+    pub(super) fn tell_doubt(&mut self) {
+        if let Some(doubt) = self.state.doubt.take() {
+            let span = core::mem::replace(&mut self.span, doubt.span);
+            self.complain(&codes::OTHER_CUTTER, doubt.message);
+            self.span = span;
+        }
+    }
+
+    /// What to say of a number that has been that of another cutter: in the machine it is one tool.
+    fn other_cutter(&self, number: Option<u32>, diameter: f64, corner: f64) -> Option<String> {
+        let number = number.filter(|_| diameter > 0.0)?;
         let differ = |a: f64, b: f64| (a - b).abs() > SAME_SIZE;
         let other = self.tools.iter().map(|(_, t)| t).find(|t| {
-            number.is_some()
-                && t.number == number
+            t.number == Some(number)
                 && t.diameter > 0.0
                 && (differ(t.diameter, diameter) || differ(t.corner, corner))
-        });
-        let (Some(other), Some(number), true) = (other, number, diameter > 0.0) else { return };
+        })?;
         let scale = self.state.scale;
         let size = |d: f64, r: f64| {
             let corner =
                 if r > 0.0 { format!(" and corner {}", number_of(r / scale)) } else { String::new() };
             format!("diameter {}{corner}", number_of(d / scale))
         };
-        let message = format!(
+        Some(format!(
             "tool {number} has {}, and had {} before: in the machine it is one tool",
             size(diameter, corner),
             size(other.diameter, other.corner)
-        );
-        self.complain(&codes::OTHER_CUTTER, message);
+        ))
     }
 
     /// The point at which the file wants the first tool: given before its change.

@@ -25,6 +25,21 @@ fn files_are_recognised_by_name_and_by_content() {
     assert_eq!(recognise("a.aptsource", "$$ CATIA APT VERSION 1.0\n$$*CATIA0\n"), Some(Producer::Catia));
     assert_eq!(recognise("a.apt", "PARTNO X\nAUTOPS\nINDIRV/1,0,0\n"), Some(Producer::Catia));
     assert_eq!(recognise("a.txt", "N10 , CUTTER/ 10\nN11 , GOTO/ 1,2,3\n"), Some(Producer::Ncl));
+    let bare = "PARTNO A=B\nUNITS/ MM\nloadtl / 1\nCUTTER/ 5\nGOTO/ 1, 2, 3\n";
+    assert_eq!(recognise("a.apt", bare), Some(Producer::Plain));
+    for program in ["T1 = CUTTER/ 5, NUMBER, 1\n", "INCLUD/ tools.inc\n"] {
+        assert_eq!(recognise("a.apt", &format!("{program}{bare}")), None);
+    }
+    assert_eq!(recognise("a.apt", "LOADTL/ 1\nGOTO/ P1\n"), None);
+    // All points of an arc behind its record, and an arc with a polygon's corners behind it.
+    let circle = "UNITS/MM\nGOTO/10,0,0\nCIRCLE/0,0,0,0,0,1, $\n10\n";
+    let close = "GOTO/9.6593,2.5882,0\nGOTO/8.6603,5,0\ngoto/ 7.0711, 7.0711, 0\n";
+    assert_eq!(recognise("a.cl", &format!("{circle}{close}")), Some(Producer::Ncl));
+    assert_eq!(recognise("a.txt", &format!("{circle}{close}")), Some(Producer::Ncl));
+    let corners = "GOTO/0,10,0\nGOTO/-10,0,0\nGOTO/0,-10,0\nGOTO/10,0,0\n";
+    assert_eq!(recognise("a.cl", &format!("{circle}{corners}")), Some(Producer::Plain));
+    let cut = "GOTO/9.6593,2.5882,0\nFEDRAT/9\nGOTO/8.6603,5,0\nGOTO/7.0711,7.0711,0\n";
+    assert_eq!(recognise("a.cl", &format!("{circle}{cut}")), Some(Producer::Plain));
     assert_eq!(recognise("a.apt", "MACHIN/X\nMODE/MILL\nPARTNO/'1'\n"), Some(Producer::Plain));
     assert_eq!(recognise("a.apt", "T1 = CUTTER/ FLAT, 16\nLOADTL/ T1\n"), None);
 }

@@ -3,7 +3,7 @@
 use super::{framed, kinds, read, read_as};
 use crate::cl::{CycleKind, RecordKind, RetractTo};
 use crate::clfile::{Options, Producer, Reader};
-use crate::ir::{Feed, Gear, Spindle};
+use crate::ir::{Coolant, Feed, Gear, Spindle};
 use crate::source::FileId;
 
 #[test]
@@ -41,6 +41,16 @@ fn nothing_is_dropped_in_silence() {
             "W1020",
         ),
         ("CUTTER/ 6\nLOADTL/ 2\nRAPID\nGOTO/ 1, 1, 9\nLOADTL/ 2\nCUTTER/ 8\nGOTO/ 1, 1, 9", "W1020"),
+        // Two moves at feed are no end of the tool before, and a cutter said anew was not that of the next tool.
+        (
+            "CUTTER/ 6\nLOADTL/ 2\nRAPID\nGOTO/ 1, 1, 9\nCUTTER/ 8\nGOTO/ 2, 1, 9\nGOTO/ 3, 1, 9\nLOADTL/ 3",
+            "W1020",
+        ),
+        (
+            "CUTTER/ 6\nLOADTL/ 2\nRAPID\nGOTO/ 1, 1, 9\nCUTTER/ 8\nRAPID\nGOTO/ 2, 1, 9\nLOADTL/ 3\nCUTTER/ 9\nRAPID\nGOTO/ 1, 1, 9",
+            "W1020",
+        ),
+        ("SPINDL/ OFF\nGOTO/ 1, 1, 1\nGOTO/ 2, 1, 1", "E0502"),
         ("SPINDL/ 9, CCLW\nLOADTL/ 2\nSPINDL/ 90\nRAPID\nGOTO/ 1, 1, 9", "W1021"),
         ("LOADTL/ 3, OFFSET, 13", "E1003"),
         ("LOADTL/ 3, 0, 50.5, 13", "E1003"),
@@ -66,6 +76,11 @@ fn nothing_is_dropped_in_silence() {
     for silent in [
         "CUTTER/ 6\nLOADTL/ 2\nRAPID\nGOTO/ 1, 1, 9\nCUTTER/ 6\nGOTO/ 1, 2, 9\nLOADTL/ 3\nCUTTER/ 8\nRAPID\nGOTO/ 1, 1, 9",
         "LOADTL/ 2\nRAPID\nGOTO/ 1, 1, 9\nCUTTER/ 6\nGOTO/ 1, 1, 5",
+        // The cutter of the next tool, before the last moves of this one.
+        "CUTTER/ 6\nLOADTL/ 2\nRAPID\nGOTO/ 1, 1, 9\nCUTTER/ 8\nGOTO/ 2, 1, 9\nRAPID\nGOTO/ 2, 1, 50\nLOADTL/ 3\nRAPID\nGOTO/ 1, 1, 9",
+        "SPINDL/ OFF\nRAPID\nGOTO/ 1, 1, 9",
+        "SPINDL/ OFF\nSPINDL/ ON\nGOTO/ 1, 1, 9",
+        "END/\nFINI/",
         "SPINDL/ 9, CCLW\nSPINDL/ 90\nGOTO/ 1, 1, 9",
         "SPINDL/ 9, CCLW\nLOADTL/ 2\nSPINDL/ 90, CLW\nRAPID\nGOTO/ 1, 1, 9\nSPINDL/ 95",
     ] {
@@ -386,4 +401,33 @@ fn numbers_need_no_commas_between_them() {
     let operation = read(&framed("TOOL PATH/FACE 1 2,TOOL,MILL 3 4\nGOTO/ 1, 1, 1")).0;
     let operation = crate::cl::print::print(&operation);
     assert!(operation.contains("FACE 1 2"), "{operation}");
+}
+
+/// What the machine does with a file, by letter: T a tool change, F a feed in mm a minute, M coolant on, O off, L a cut.
+fn done(text: &str) -> String {
+    let (cl, codes) = read(text);
+    assert!(codes.is_empty(), "{codes:?}");
+    let letter = |kind: &RecordKind| match kind {
+        RecordKind::LoadTool(_) => "T".to_owned(),
+        RecordKind::Feed(Feed::PerMinute(feed)) => format!("F{feed}"),
+        RecordKind::Coolant(Coolant::Off) => "O".to_owned(),
+        RecordKind::Coolant(_) => "M".to_owned(),
+        RecordKind::Linear(_) => "L".to_owned(),
+        _ => String::new(),
+    };
+    cl.records.iter().map(|record| letter(&record.kind)).collect()
+}
+
+/// `COOLNT/ ON` at the head of a file, as CATIA writes it, is for the first tool.
+#[test]
+fn coolant_before_the_first_tool_flows_with_it() {
+    let body = "SPINDL/900,RPM,CLW\nFEDRAT/200,MMPM\nRAPID\nGOTO/1,0,5\nGOTO/2,0,5\nFINI\n";
+    assert_eq!(done(&format!("COOLNT/ON\nPPRINT A\nLOADTL/1\n{body}")), "TMF200L");
+    assert_eq!(done(&format!("COOLNT/ON\nCOOLNT/OFF\nLOADTL/1\n{body}")), "TF200L");
+    assert_eq!(done(&format!("COOLNT/ON\nGOTO/0,0,90\nLOADTL/1\nCOOLNT/OFF\n{body}")), "TMOF200L");
+}
+
+#[test]
+fn a_feed_behind_a_point_or_a_delta_holds() {
+    assert_eq!(done(&framed("GOTO/1,2,3,70\nGODLTA/1,0,0,50\nGODLTA/1,0,0")), "TF70LF50LL");
 }
