@@ -466,3 +466,31 @@ fn a_project_is_not_made_over_another() {
     assert!(stderr(&unknown).contains("E0701"), "{}", stderr(&unknown));
     assert_eq!(scratch.names(), ["file", "shop"]);
 }
+
+/// What the command line says of a CL file, its test file can say, too.
+#[test]
+fn test_files_say_how_to_read_cl_files() {
+    let scratch = Scratch::new("golden-cl");
+    // In columns 73 to 80 there is a card's name; TWIDDLE is no record; nothing tells that it is a CL file but GOTO.
+    let card = format!("{:72}CARD0012\n", "GOTO/ 1, 0, 5");
+    let text = format!(
+        "UNITS/ MM\nLOADTL/ 1\nSPINDL/ 900, CLW\nFEDRAT/ 90\nRAPID\nGOTO/ 0, 0, 5\nTWIDDLE/ 1\n{card}FINI\nA = B\n"
+    );
+    scratch.write("part.apt", &text);
+    let cases = [
+        ("", "E0201", "E1001"),
+        ("producer = \"plain\"\n", "part.apt:8", "E0201"),
+        ("producer = \"plain\"\ncard-columns = true\n", "E1001", "part.apt:8"),
+        ("producer = \"plain\"\nlenient = true\ncard-columns = true\n", "is not there yet", "E1001]"),
+    ];
+    for (keys, said, not) in cases {
+        scratch.write("part.test.toml", format!("posts = [\"fanuc\"]\n{keys}"));
+        let output = scratch.run(&["test"]);
+        let all = stderr(&output) + &stdout(&output);
+        assert!(code(&output) != 0 && all.contains(said) && !all.contains(not), "{keys}: {all}");
+    }
+    scratch.write("part.test.toml", "posts = [\"fanuc\"]\nproducer = \"catja\"\n");
+    let output = scratch.run(&["test", "--message-format", "short"]);
+    assert!(stderr(&output).contains("part.test.toml:2:12: error[E0955]"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("did you mean `catia`?"), "{}", stderr(&output));
+}

@@ -5,6 +5,7 @@
 
 use std::collections::BTreeSet;
 
+use crate::clfile;
 use crate::diag::{Diagnostic, Severity};
 use crate::driver::{self, Build, Output};
 use crate::motion_diff::{self, Comparison, Tolerance};
@@ -61,6 +62,13 @@ fn one_plan(sidecar: &Sidecar, variant: &Variant, program: &str) -> Plan {
         defines: defines.into_iter().collect(),
         posts: posts.iter().map(|post| names::beside(program, post)).collect(),
         post_set: post_set.into_iter().collect(),
+        // A name that is none has been told with the file.
+        cl: clfile::Options {
+            producer: sidecar.producer.as_deref().and_then(|name| clfile::producer_named(name).ok()),
+            lenient: sidecar.lenient,
+            ..clfile::Options::default()
+        },
+        card_columns: sidecar.card_columns,
         ..driver::Options::default()
     };
     let diagnostics = variant.diagnostics.clone().or_else(|| sidecar.diagnostics.clone());

@@ -7,6 +7,7 @@ use serde::Deserialize;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use crate::clfile;
 use crate::diag::codes::tools as codes;
 use crate::diag::{self, Diagnostic, Label, did_you_mean};
 use crate::driver::Build;
@@ -26,6 +27,15 @@ pub struct Sidecar {
     /// Overrides of the posts, as `--post-set` gives them.
     #[serde(default)]
     pub post_set: BTreeMap<String, String>,
+    /// The system that wrote a CL file, as `--producer` gives it.
+    #[serde(default)]
+    pub producer: Option<String>,
+    /// A CL file is read as with `--lenient`.
+    #[serde(default)]
+    pub lenient: bool,
+    /// Columns from 73 on are left out, as with `--card-columns`.
+    #[serde(default)]
+    pub card_columns: bool,
     /// Codes of all errors and warnings that must come, and of notes that must.
     #[serde(default)]
     pub diagnostics: Option<Vec<String>>,
@@ -198,6 +208,9 @@ struct Mistake {
 fn check(sidecar: &Sidecar) -> Vec<Mistake> {
     let mut mistakes = Vec::new();
     let mut seen: Vec<String> = Vec::new();
+    if let Some(Err(message)) = sidecar.producer.as_deref().map(clfile::producer_named) {
+        mistakes.push(Mistake { message, path: "producer".to_owned(), help: None });
+    }
     check_lists("", Some(&sidecar.posts), sidecar.diagnostics.as_ref(), &mut mistakes);
     for (index, variant) in sidecar.variant.iter().enumerate() {
         let (name, path) = (variant.name.as_str(), format!("variant.{index}.name"));

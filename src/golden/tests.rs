@@ -45,7 +45,7 @@ fn mistakes_in_test_files_have_their_places() {
     assert_eq!(
         mistakes("post = [\"fanuc\"]\n"),
         [
-            "E0955 `post` unknown field `post`, expected one of `posts`, `define`, `post-set`, `diagnostics`, `variant`"
+            "E0955 `post` unknown field `post`, expected one of `posts`, `define`, `post-set`, `producer`, `lenient`, `card-columns`, `diagnostics`, `variant`"
         ]
     );
     assert!(mistakes("posts = 3\n")[0].starts_with("E0955 `3` invalid type"));
