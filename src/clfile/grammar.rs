@@ -85,6 +85,11 @@ fn build(pair: Pair<'_, Rule>) -> Statement {
     statement
 }
 
+/// Blanks before the number of a card in columns 73 to 80, at least: nobody leaves so many between the numbers of a record.
+const CARD_GAP: usize = 5;
+/// Figures of a whole number there.
+const CARD_FIGURES: usize = 8;
+
 /// Adds what stands between two commas; numbers with nothing but blanks between them are several: some systems leave commas
 /// out.
 fn add(pair: Pair<'_, Rule>, args: &mut Vec<Arg>) {
@@ -94,9 +99,12 @@ fn add(pair: Pair<'_, Rule>, args: &mut Vec<Arg>) {
     }
 }
 
-/// Numbers with blanks between them, if that is what a text is.
+/// Numbers with blanks between them, if that is what a text is, and the last is no number of a card.
 fn several(text: &str) -> Option<Vec<Arg>> {
-    if !text.contains(char::is_whitespace) {
+    let (before, last) = text.rsplit_once(char::is_whitespace)?;
+    let gap = before.len() - before.trim_end().len();
+    let figures = last.bytes().all(|b| b.is_ascii_digit());
+    if figures && (gap >= CARD_GAP || last.len() == CARD_FIGURES && last.starts_with('0')) {
         return None;
     }
     text.split_whitespace().map(|part| super::scan::number(part).map(Arg::Number)).collect()

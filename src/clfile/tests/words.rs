@@ -395,7 +395,15 @@ fn numbers_need_no_commas_between_them() {
         assert_eq!(printed(without), printed(with), "{without}");
     }
     // What is not numbers all through is one word, and there are no fewer numbers than the record takes.
-    for wrong in ["GOTO/ 1 2", "GOTO/ 1 2 X3", "GOTO/ 1 - 2 3", "GOTO/ 1 2 3, 4 X"] {
+    // The number of a card is no feed.
+    for wrong in [
+        "GOTO/ 1 2",
+        "GOTO/ 1 2 X3",
+        "GOTO/ 1 - 2 3",
+        "GOTO/ 1 2 3, 4 X",
+        "GOTO/ 1, 2, 3       120",
+        "GOTO/ 1, 2, 3 00000120",
+    ] {
         assert_eq!(read(&framed(wrong)).1, ["E1002"], "{wrong}");
     }
     let operation = read(&framed("TOOL PATH/FACE 1 2,TOOL,MILL 3 4\nGOTO/ 1, 1, 1")).0;
