@@ -165,8 +165,8 @@ const NOT_BY_A_PROGRAM: [(&str, &[&str]); 9] = [
     (
         "a CL file, which is no program of the language: src/clfile/tests, tests/cl",
         &[
-            "E1001", "E1002", "E1003", "E1005", "E1006", "E1007", "E1008", "N0611", "N1013", "N1014",
-            "W1011", "W1012", "W1015", "E1016", "W1017", "W1018", "W1019", "W1020", "W1021",
+            "E1001", "E1002", "E1005", "E1006", "E1007", "E1008", "N0611", "N1013", "N1014", "W1011",
+            "W1012", "W1015", "E1016", "W1017", "W1018", "W1019", "W1020", "W1021",
         ],
     ),
     ("a producer on the command line, without a test so far", &["E1009"]),

@@ -75,7 +75,7 @@ fn execute(name: &str, program: &str) -> Executed {
         (folder.join("program.ngc"), folder.join("tool.tbl"), folder.join("rs274.var"));
     std::fs::write(&nc, program).expect("a program");
     // Tool table lengths are inches, whatever the program's unit.
-    std::fs::write(&table, "T1 P1 Z0 D0.3\nT2 P2 Z0 D0.2\n").expect("a table");
+    std::fs::write(&table, "T1 P1 Z0 D0.3\nT2 P2 Z0 D0.2\nT3 P3 Z0 D0\n").expect("a table");
     let mut command = Command::new("rs274");
     command.args(["-g", "-t"]).arg(&table).arg("-v").arg(&variables).arg(&nc).stdin(Stdio::null());
     let done = alive(&mut command);
@@ -156,7 +156,7 @@ fn in_space(plane: Plane, first: f64, second: f64, level: f64) -> Point3 {
 fn setup() -> MachineSetup {
     MachineSetup {
         rotary: Some(Rotary { letter: 'C', reversed: false }),
-        tools: Some(vec![1, 2]),
+        tools: Some(vec![1, 2, 3]),
         ..MachineSetup::default()
     }
 }
@@ -281,6 +281,10 @@ fn both_read_the_same_motion() {
         ("rows from the first height", "G98 G91 G81 X1 Y2 Z-3 R-2 L3\nX5 L2\nG80\nG90 G0 Z6"),
         ("repeats on the spot", "G98 G81 X10 Y0 Z-3 R2 L2\nG80 G0 X1"),
         ("cycle words in another distance mode", "G98 G81 X10 Y0 Z-1 R2\nG91 X1\nZ-2 X1\nR-1 X1\nG80"),
+        (
+            "compensation by 0",
+            "G41 D3 G3 X0 Y0 I-5\nX10 I5\nG40 G2 X0 I-5\nG1 Z-1\nG41 D3 G1 X20\nY10\nG3 X10 Y20 I-10 J0\nG1 Z-2\nX0\nG40\nX-5 Y20\nG0 G42 D3 X0 Y0\nG1 X10\nG40 G0 X20",
+        ),
         ("modal", "G1 X11\nG95 F0.1 X12\nG97 S500\nG94 F50 X13\nM5\nM3\nM7\nM8\nM9"),
     ] {
         agree(name, &program(body));
@@ -340,6 +344,14 @@ fn both_refuse_the_same() {
         "G83 X1 Z-3 R1 Q1 D1",
         "G99 G74 X1 Z-3 R1",
         "G81 X1 C5 Z-3 R1",
+        "G41 D3 G1 X20\nG41 D3 X30",
+        "G41 D3 G1 X20\nG42 D3 X30",
+        "G41 D3 G1 X20\nG18",
+        "G41 D3 G1 X20\nG28 Z5",
+        "G41 D3 G1 X20\nG81 X30 Y5 Z-3 R1",
+        "G41 D3 G1 X20\nT2 M6",
+        "G41 D77 G1 X20",
+        "G41 D1.5 G1 X20",
     ]
     .iter()
     .enumerate()

@@ -20,7 +20,7 @@ use crate::geom::curve::CurveRef;
 use crate::geom::surface::heights::Blank;
 use crate::geom::surface::{Cutter, SurfaceTree, Track};
 use crate::geom::{Point3, Side, Vec3};
-use crate::ir::{Along, Band, Coolant, Feed, Interpolation, Origin, PassShape, Spindle, Tool};
+use crate::ir::{Along, Band, Compensation, Coolant, Feed, Interpolation, Origin, PassShape, Spindle, Tool};
 use crate::units::LengthUnit;
 
 pub mod lead;
@@ -218,6 +218,8 @@ pub enum RecordKind {
     Feed(Feed),
     /// Coolant.
     Coolant(Coolant),
+    /// Compensation of the cutter's radius by the control, from the next move in X or Y on; `None` ends it there.
+    Compensation(Option<Compensation>),
     /// Dwell, seconds.
     Dwell(f64),
     /// Stop.

@@ -21,7 +21,7 @@ use super::{
 use crate::geom::curve::{PlanarCurve, Shape};
 use crate::geom::surface::Guide;
 use crate::geom::{Point2, Point3, Side};
-use crate::ir::{Coolant, Feed, Spindle, Tool};
+use crate::ir::{Compensation, Coolant, Feed, Spindle, Tool};
 use crate::units::LengthUnit;
 
 /// Largest distance of a printed chord from its curve, mm.
@@ -97,6 +97,7 @@ impl Printer<'_> {
             RecordKind::Coolant(coolant) => {
                 self.line(format_args!("COOLNT/ {}", coolant_word(*coolant)));
             }
+            RecordKind::Compensation(on) => self.line(format_args!("CUTCOM/ {}", compensation_words(*on))),
             RecordKind::Dwell(seconds) => self.line(format_args!("DELAY/ {}", number(*seconds))),
             RecordKind::Stop => self.line(format_args!("STOP")),
             RecordKind::OptionalStop => self.line(format_args!("OPSTOP")),
@@ -448,6 +449,13 @@ fn unit_word(unit: LengthUnit) -> &'static str {
         LengthUnit::Millimetre => "MM",
         LengthUnit::Inch => "INCH",
     }
+}
+
+/// `CUTCOM/` with what is behind it.
+fn compensation_words(on: Option<Compensation>) -> String {
+    let Some(Compensation { side, register }) = on else { return "OFF".to_owned() };
+    let side = if side == Side::Left { "LEFT" } else { "RIGHT" };
+    register.map_or_else(|| side.to_owned(), |n| format!("{side}, {n}"))
 }
 
 fn coolant_word(coolant: Coolant) -> &'static str {

@@ -132,6 +132,7 @@ impl Reader<'_> {
             self.complain(&codes::FIRST_AT_RAPID, message.to_owned());
         }
         self.state.rapid = false;
+        self.record_compensation();
         self.emit(RecordKind::Rapid(to));
         self.state.at = Some(to);
         self.state.hole = None;
@@ -178,6 +179,7 @@ impl Reader<'_> {
         if self.state.recorded_feed.is_none() || self.state.recorded_feed != self.state.feed {
             self.record_feed();
         }
+        self.record_compensation();
         true
     }
 
@@ -315,13 +317,13 @@ impl Reader<'_> {
     /// The tool went home, nobody knows where, and moves on.
     pub(super) fn move_from_home(&mut self) {
         let Some(home) = self.state.home.take() else { return };
-        let span = core::mem::replace(&mut self.span, home);
-        self.soften(
-            &codes::NOT_CARRIED_OUT,
-            "GOHOME cannot be carried out: the file does not say where home is, and moves on from there"
-                .to_owned(),
-            Some("give it a point, or put FROM at the start".to_owned()),
-        );
-        self.span = span;
+        self.as_of(home, |reader| {
+            reader.soften(
+                &codes::NOT_CARRIED_OUT,
+                "GOHOME cannot be carried out: the file does not say where home is, and moves on from there"
+                    .to_owned(),
+                Some("give it a point, or put FROM at the start".to_owned()),
+            );
+        });
     }
 }

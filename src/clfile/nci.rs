@@ -7,8 +7,8 @@ use super::reader::Reader;
 use super::scan;
 use crate::cl::RecordKind;
 use crate::diag::codes::foreign as codes;
-use crate::geom::{Point3, Vec3};
-use crate::ir::Coolant;
+use crate::geom::{Point3, Side, Vec3};
+use crate::ir::{Compensation, Coolant};
 
 /// A turn of the tool plane that is none.
 const NO_TURN: f64 = 1e-9;
@@ -93,13 +93,13 @@ impl<'t> Reader<'t> {
         self.soften(&codes::NOT_CARRIED_OUT, format!("the record {code} {what}"), None);
     }
 
-    /// The control's compensation, which is a number of lines and arcs: without it the path is another one.
+    /// The control's compensation, which is a number of lines and arcs: 40 none, 41 left, 42 right.
     fn nci_compensated(&mut self, value: f64) {
-        if (value == 41.0 || value == 42.0) && !self.state.compensation_told {
-            self.state.compensation_told = true;
-            let message = "the control is to shift the path by the cutter's radius (41, 42): that is left to no control here";
-            let help = "let the CAM system compensate (compensation type: computer)";
-            self.soften(&codes::NOT_CARRIED_OUT, message.to_owned(), Some(help.to_owned()));
+        match value {
+            41.0 => self.compensate(Compensation { side: Side::Left, register: None }),
+            42.0 => self.compensate(Compensation { side: Side::Right, register: None }),
+            40.0 => self.end_compensation(),
+            _ => {}
         }
     }
 

@@ -5,7 +5,8 @@ use super::reader::Reader;
 use crate::cl::RecordKind;
 use crate::diag::Diagnostic;
 use crate::diag::codes::foreign as codes;
-use crate::ir::{Coolant, Feed, Gear, Spindle};
+use crate::geom::Side;
+use crate::ir::{Compensation, Coolant, Feed, Gear, Spindle};
 
 /// Words of a feed per minute, with the length they count in mm; 0: the file's unit.
 pub(super) const PER_MINUTE: &[(&str, f64)] =
@@ -34,7 +35,7 @@ const THROUGH: Coolant = Coolant::Through { needed: true };
 pub(super) const COMPENSATION: (&[&str], &[&str]) = (&["LEFT", "RIGHT", "ON"], &["OFF", "NOMORE"]);
 /// Words that say more of it: its plane, its offset; compensation of the length is what every tool change has.
 pub(super) const OF_COMPENSATION: &[&str] =
-    &["XYPLAN", "YZPLAN", "ZXPLAN", "XAXIS", "YAXIS", "ADJUST", "OSETNO", "LENGTH", "NOW", "NEXT"];
+    &["XYPLAN", "XAXIS", "YAXIS", "ADJUST", "OSETNO", "LENGTH", "NOW", "NEXT"];
 
 impl Reader<'_> {
     /// `-D SPINDL=…` and the like: what the file lacks.
@@ -275,7 +276,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Points are the cutter's centre; a control's own compensation on top is not written.
+    /// `CUTCOM/`: with a side from the next move on, with `OFF` at once.
     fn cutcom(&mut self, s: &Statement) {
         let known = |w: &&str| {
             COMPENSATION.0.contains(w) || COMPENSATION.1.contains(w) || OF_COMPENSATION.contains(w)
@@ -284,14 +285,50 @@ impl Reader<'_> {
             let message = format!("CUTCOM with {unknown} cannot be carried out");
             return self.soften(&codes::NOT_CARRIED_OUT, message, None);
         }
-        let ends = COMPENSATION.1.iter().any(|w| s.has(w)) || s.has("LENGTH");
-        let on = !ends && COMPENSATION.0.iter().any(|w| s.has(w));
-        if on && !self.state.compensation_told {
-            self.state.compensation_told = true;
-            let message =
-                "the path is written as the points say, without the control's own compensation (G41, G42)";
-            let diagnostic = Diagnostic::new(&codes::NO_COMPENSATION, self.span, message);
-            self.tell(diagnostic.help(codes::NO_COMPENSATION_HELP));
+        if s.has("LENGTH") {
+            return;
+        }
+        if COMPENSATION.1.iter().any(|w| s.has(w)) {
+            return self.end_compensation();
+        }
+        let last = self.state.last_compensation;
+        let side = match () {
+            () if s.has("LEFT") => Some(Side::Left),
+            () if s.has("RIGHT") => Some(Side::Right),
+            () => last.map(|last| last.side),
+        };
+        let named = s.after("ADJUST").or_else(|| s.after("OSETNO")).or_else(|| s.numbers().first().copied());
+        if let Some(bad) = named.filter(|n| n.fract() != 0.0 || !(0.0..1e8).contains(n)) {
+            return self.complain(&codes::BAD_RECORD, format!("CUTCOM with the register {bad}"));
+        }
+        let Some(side) = side else {
+            let message = "CUTCOM/ ON goes on with the side that was in force, and there was none";
+            return self.complain(&codes::BAD_RECORD, message.to_owned());
+        };
+        let register = named.map(|n| n as u32).or(last.and_then(|last| last.register));
+        self.compensate(Compensation { side, register });
+    }
+
+    /// Compensation from the next move on.
+    pub(super) fn compensate(&mut self, on: Compensation) {
+        self.state.last_compensation = Some(on);
+        self.state.compensation = Some((on, self.span));
+    }
+
+    /// No compensation.
+    pub(super) fn end_compensation(&mut self) {
+        self.state.compensation = None;
+        self.record_compensation();
+    }
+
+    /// What the file wants is in the CL data before the next move.
+    #[inline]
+    pub(super) fn record_compensation(&mut self) {
+        let wanted = self.state.compensation.map(|(on, _)| on);
+        if self.state.recorded_compensation != wanted {
+            self.state.recorded_compensation = wanted;
+            let span = self.state.compensation.map_or(self.span, |(_, span)| span);
+            self.as_of(span, |reader| reader.emit(RecordKind::Compensation(wanted)));
         }
     }
 

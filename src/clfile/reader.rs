@@ -453,6 +453,15 @@ impl<'t> Reader<'t> {
         self.origin = None;
     }
 
+    /// Does what a statement before asked for, and says so.
+    pub(super) fn as_of(&mut self, span: Span, what: impl FnOnce(&mut Self)) {
+        let here = core::mem::replace(&mut self.span, span);
+        self.forget_origin();
+        what(self);
+        self.span = here;
+        self.forget_origin();
+    }
+
     /// `$$->` comments of Creo.
     fn metadata(&mut self, text: &str) {
         let Ok(s) = grammar::parse(text) else { return };

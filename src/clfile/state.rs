@@ -5,7 +5,7 @@ use super::cycle::Asked;
 use super::nurbs::Spans;
 use super::tool::{Data, Doubt, Load};
 use crate::geom::{Point3, Vec3};
-use crate::ir::{Band, Coolant, Feed, Spindle};
+use crate::ir::{Band, Compensation, Coolant, Feed, Spindle};
 use crate::source::Span;
 
 /// Tolerance of a file that states none, mm: of arcs and curves, on either side.
@@ -71,7 +71,12 @@ pub(super) struct State {
     /// Points are in the part's system, not in the operation's.
     pub world: bool,
     pub frame_told: bool,
-    pub compensation_told: bool,
+    /// Cutter compensation that the file wants, and where it says so.
+    pub compensation: Option<(Compensation, Span)>,
+    /// The same in the CL data.
+    pub recorded_compensation: Option<Compensation>,
+    /// Side and register that the file has given last.
+    pub last_compensation: Option<Compensation>,
     /// The control has been told where the tool is.
     pub sure: bool,
     pub moved: bool,
@@ -128,7 +133,9 @@ impl State {
             frame: None,
             world: false,
             frame_told: false,
-            compensation_told: false,
+            compensation: None,
+            recorded_compensation: None,
+            last_compensation: None,
             sure: false,
             moved: false,
             operation: None,

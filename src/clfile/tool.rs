@@ -303,10 +303,7 @@ impl Reader<'_> {
         self.span = span;
         self.forget_origin();
         if let Some((coolant, span)) = self.state.first_coolant.take() {
-            let span = core::mem::replace(&mut self.span, span);
-            self.switch_coolant(coolant);
-            self.span = span;
-            self.forget_origin();
+            self.as_of(span, |reader| reader.switch_coolant(coolant));
         }
         self.go_to_first();
     }
@@ -337,9 +334,7 @@ impl Reader<'_> {
     /// The doubted cutter is one of the tool that is there.
     pub(super) fn tell_doubt(&mut self) {
         if let Some(doubt) = self.state.doubt.take() {
-            let span = core::mem::replace(&mut self.span, doubt.span);
-            self.complain(&codes::OTHER_CUTTER, doubt.message);
-            self.span = span;
+            self.as_of(doubt.span, |reader| reader.complain(&codes::OTHER_CUTTER, doubt.message));
         }
     }
 
@@ -369,12 +364,9 @@ impl Reader<'_> {
     fn go_to_first(&mut self) {
         if let Some((point, span)) = self.state.first.take() {
             self.begin_operation();
-            let span = core::mem::replace(&mut self.span, span);
-            self.emit(RecordKind::From(point));
+            self.as_of(span, |reader| reader.emit(RecordKind::From(point)));
             self.state.at = Some(point);
             self.state.sure = true;
-            self.span = span;
-            self.forget_origin();
         }
     }
 

@@ -260,6 +260,8 @@ pub enum StepKind {
     Feed(Feed),
     /// `COOLNT`.
     Coolant(Coolant),
+    /// `CUTCOM`; `None` ends it.
+    Compensation(Option<Compensation>),
     /// `DELAY`, seconds.
     Dwell(f64),
     /// `STOP`.
@@ -386,6 +388,22 @@ pub enum Coolant {
         /// Where the control has no word for it, flood will not do.
         needed: bool,
     },
+}
+
+/// Compensation of the cutter's radius by the control: it moves the path by what its register holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Compensation {
+    /// The side of the path to which it is moved, seen along the way.
+    pub side: Side,
+    /// The register, where the program names one.
+    pub register: Option<u32>,
+}
+
+impl core::fmt::Display for Compensation {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(if self.side == Side::Left { "left" } else { "right" })?;
+        self.register.map_or(Ok(()), |register| write!(f, " by register {register}"))
+    }
 }
 
 /// How a contour is to be expressed.

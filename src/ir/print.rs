@@ -260,6 +260,8 @@ fn step_text(kind: &StepKind) -> String {
             Coolant::Mist => "coolant mist".into(),
             Coolant::Through { .. } => "coolant through the tool".into(),
         },
+        StepKind::Compensation(None) => "compensation off".into(),
+        StepKind::Compensation(Some(on)) => format!("compensation {on}"),
         StepKind::Dwell(seconds) => format!("dwell {} s", num(*seconds)),
         StepKind::Stop => "stop".into(),
         StepKind::OptionalStop => "optional stop".into(),

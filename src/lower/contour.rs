@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
+use super::compensation;
 use super::fit::{self, Fit, FitError, Tube};
 use super::path;
 use crate::arena::Handle;
@@ -40,13 +41,21 @@ pub fn fit_all(cl: &Cl, capabilities: &Capabilities, sink: &mut Sink) -> Vec<Opt
         .enumerate()
         .filter_map(|(i, r)| if let RecordKind::Contour(c) = &r.kind { Some((i, &**c)) } else { None })
         .collect();
+    // Controls refuse curves under their cutter compensation.
+    let (compensated, plain) =
+        (compensation::wanted(cl), Capabilities { nurbs: None, ..capabilities.clone() });
+    let alone = |i: usize| contours.get(i).is_some_and(|(r, _)| compensated.get(*r) == Some(&true));
     let leaders: Vec<usize> = (0..contours.len())
-        .map(|i| (0..i).find(|&j| same_task(contours[i].1, contours[j].1)).unwrap_or(i))
+        .map(|i| {
+            (0..i).find(|&j| same_task(contours[i].1, contours[j].1) && alone(i) == alone(j)).unwrap_or(i)
+        })
         .collect();
     let results: Vec<Option<Fitting>> = contours
         .par_iter()
         .enumerate()
-        .map(|(i, (_, contour))| (leaders[i] == i).then(|| fit_one(contour, capabilities)))
+        .map(|(i, (_, contour))| {
+            (leaders[i] == i).then(|| fit_one(contour, if alone(i) { &plain } else { capabilities }))
+        })
         .collect();
     let mut fitted = vec![None; cl.records.len()];
     let mut told: Vec<(&'static str, crate::source::Span)> = Vec::new();

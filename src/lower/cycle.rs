@@ -46,6 +46,7 @@ impl Emitter<'_> {
     /// A cycle comes into force; nothing moves.
     pub(super) fn begin_cycle(&mut self, cycle: &Cycle) {
         self.end_cycle();
+        self.ends_compensation("a drilling cycle");
         self.cycle =
             Some(Active { cycle: *cycle, initial: self.at[2], open: None, told: false, hand_told: false });
     }

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::compensation::Compensating;
 use super::contour::Fitted;
 use super::cycle::Active;
 use super::feed::{self, FeedTrouble};
@@ -35,9 +36,7 @@ pub(super) fn program(
     let mut emitter = Emitter::new(cl, capabilities, sink, first, Tools::of(cl));
     emitter.event(BlockKind::Begin);
     emitter.records(fitted, passes);
-    emitter.of_record = None;
-    emitter.event(BlockKind::End);
-    emitter.report_curves();
+    emitter.end();
     Some(emitter.finish().0)
 }
 
@@ -61,6 +60,7 @@ pub(super) struct Carry {
     changes: usize,
     pecks_told: Option<(f64, f64)>,
     curves_told: Vec<Told>,
+    compensating: Compensating,
 }
 
 /// Emits a chunk: the first one begins the program, the last one ends it.
@@ -86,10 +86,8 @@ pub(super) fn chunk(
         None => emitter.event(BlockKind::Begin),
     }
     emitter.records(&[], &[]);
-    emitter.of_record = None;
     if last {
-        emitter.event(BlockKind::End);
-        emitter.report_curves();
+        emitter.end();
     }
     emitter.finish()
 }
@@ -114,6 +112,7 @@ impl Carry {
             changes: 0,
             pecks_told: None,
             curves_told: Vec::new(),
+            compensating: Compensating::default(),
         }
     }
 }
@@ -167,6 +166,7 @@ pub(super) struct Emitter<'a> {
     pub(super) pecks_told: Option<(f64, f64)>,
     /// Curves that became lines.
     pub(super) curves_told: Vec<Told>,
+    pub(super) compensating: Compensating,
 }
 
 impl<'a> Emitter<'a> {
@@ -206,6 +206,7 @@ impl<'a> Emitter<'a> {
             changes: 0,
             pecks_told: None,
             curves_told: Vec::new(),
+            compensating: Compensating::default(),
         };
         emitter.forget();
         emitter
@@ -229,6 +230,7 @@ impl<'a> Emitter<'a> {
         self.changes = carry.changes;
         self.pecks_told = carry.pecks_told;
         self.curves_told = carry.curves_told;
+        self.compensating = carry.compensating;
     }
 
     fn records(&mut self, fitted: &[Option<Arc<Fitted>>], passes: &Passes) {
@@ -244,6 +246,13 @@ impl<'a> Emitter<'a> {
             }
             self.record(index, record, fitted);
         }
+    }
+
+    fn end(&mut self) {
+        self.ends_compensation("the end");
+        self.of_record = None;
+        self.event(BlockKind::End);
+        self.report_curves();
     }
 
     fn finish(self) -> (TargetProgram, Carry) {
@@ -274,6 +283,7 @@ impl<'a> Emitter<'a> {
             changes: self.changes,
             pecks_told: self.pecks_told,
             curves_told: self.curves_told,
+            compensating: self.compensating,
         };
         (program, carry)
     }
@@ -319,6 +329,7 @@ impl<'a> Emitter<'a> {
             RecordKind::Spindle(spindle) => self.spindle(*spindle),
             RecordKind::Feed(feed) => self.set_feed(*feed),
             RecordKind::Coolant(coolant) => self.coolant(*coolant),
+            RecordKind::Compensation(wanted) => self.compensation(*wanted),
             RecordKind::Dwell(seconds) => self.event(BlockKind::Dwell(*seconds)),
             RecordKind::Stop => self.stop(false),
             RecordKind::OptionalStop => self.stop(true),
@@ -362,9 +373,11 @@ impl<'a> Emitter<'a> {
     }
 
     fn load_tool(&mut self, tool: Handle<crate::ir::Tool>) {
+        self.ends_compensation("a tool change");
         self.rise();
         self.changes += 1;
         let index = self.tools.index(tool);
+        self.compensating.tool = self.tools.list.get(index as usize).and_then(|tool| tool.number);
         self.event(BlockKind::ToolChange(index));
         // A post may stop the coolant for the change: it is said again when the new tool moves.
         (self.standing, self.dry) = (false, self.coolant != Coolant::Off);
@@ -582,6 +595,7 @@ impl<'a> Emitter<'a> {
     /// Pushes a motion and checks it.
     pub(super) fn push(&mut self, motion: Motion) {
         self.check(&motion);
+        self.compensates(&motion);
         self.blocks.push(Block {
             kind: BlockKind::Motion(motion),
             origin: self.origin,

@@ -13,6 +13,7 @@
 
 mod arc;
 pub(crate) mod circle;
+mod compensation;
 pub mod contour;
 mod cut;
 mod cycle;

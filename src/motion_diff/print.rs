@@ -73,6 +73,7 @@ fn state_text(difference: &StateDifference, names: Names<'_>) -> String {
         Property::Tool => ("tool", ""),
         Property::LengthOffset => ("tool length offset", ""),
         Property::Coolant => ("coolant", ""),
+        Property::Compensation => ("cutter compensation", ""),
         Property::WorkOffset => ("work offset", ""),
         Property::PathTolerance => ("path tolerance", " mm"),
     };

@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::chords::Path;
 use super::walk::{self, Walked, ordered};
 use super::{Tolerance, coordinates};
-use crate::readback::{FeedMode, TraceMove, Washing};
+use crate::readback::{Compensated, FeedMode, TraceMove, Washing};
 
 /// What can differ while the path is the same.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -25,6 +25,8 @@ pub enum Property {
     LengthOffset,
     /// Coolant.
     Coolant,
+    /// Cutter compensation by the control.
+    Compensation,
     /// Work offset, 1 for the first.
     WorkOffset,
     /// How far the control may leave the path, mm.
@@ -165,6 +167,10 @@ fn differences(a: &TraceMove, b: &TraceMove, rate: f64) -> Vec<(Property, [Strin
     }
     if a.coolant != b.coolant {
         note(Property::Coolant, coolant(a.coolant), coolant(b.coolant));
+    }
+    if a.compensation != b.compensation {
+        let said = |on: Option<Compensated>| on.map_or_else(|| "off".to_owned(), |on| on.to_string());
+        note(Property::Compensation, said(a.compensation), said(b.compensation));
     }
     if a.work_offset != b.work_offset {
         let said = |offset: Option<u16>| offset.map_or_else(|| "none".to_owned(), |n| n.to_string());

@@ -74,6 +74,7 @@ impl<'a> Planner<'a> {
             StepKind::Spindle(spindle) => self.spindle(*spindle, origin),
             StepKind::Feed(feed) => self.feed(*feed, origin),
             StepKind::Coolant(coolant) => self.emit(RecordKind::Coolant(*coolant), origin),
+            StepKind::Compensation(on) => self.emit(RecordKind::Compensation(*on), origin),
             StepKind::Dwell(seconds) => self.emit(RecordKind::Dwell(*seconds), origin),
             StepKind::Stop => self.emit(RecordKind::Stop, origin),
             StepKind::OptionalStop => self.emit(RecordKind::OptionalStop, origin),

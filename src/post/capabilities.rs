@@ -8,7 +8,7 @@ use crate::diag::{Diagnostic, codes};
 use crate::ir::CycleName;
 use crate::ir::{Machine, Rotary};
 use crate::target::{
-    Capabilities, FullCircle, Grid, NurbsForm, PathTolerance, Plane, PlaneArcs, Ranges, RotaryAxis,
+    Capabilities, FullCircle, Grid, NurbsForm, PathTolerance, Plane, PlaneArcs, Ranges, Register, RotaryAxis,
     RotaryFeed,
 };
 use crate::units::{Angle, LengthUnit};
@@ -75,6 +75,7 @@ impl Dialect {
             through: !spec.coolant.through.is_empty(),
             work_offset: self.work_offset(&options, unit),
             options,
+            compensation: self.compensation(),
             optional_stop: !spec.stops.optional.is_empty(),
             restart: spec.stops.restart,
             spindle: spec.limits.spindle.map(|[low, high]| (low, high)),
@@ -150,6 +151,16 @@ impl Dialect {
                 format!("the option `{key}` is {value:?}; options are printable ASCII on one line"),
             )),
         }
+    }
+
+    fn compensation(&self) -> Option<Register> {
+        let rules = &self.spec.compensation;
+        let register = match rules.register.as_str() {
+            "always" => Register::Always,
+            "as-named" => Register::AsNamed,
+            _ => Register::OfTool,
+        };
+        (!rules.left.is_empty()).then_some(register)
     }
 
     /// An option that picks the start of a modal group counts codes that there are.

@@ -95,6 +95,10 @@ pub(super) fn patterns(dialect: &Dialect) -> Vec<(&'static str, Place, &[String]
         ("spindle.on", Place::Spindle, &spec.spindle.on),
         ("spindle.after-tool-change", Place::Spindle, &spec.spindle.after_tool_change),
         ("dwell.block", Place::Dwell, &spec.dwell.block),
+        ("compensation.left", Place::Compensation, &spec.compensation.left),
+        ("compensation.right", Place::Compensation, &spec.compensation.right),
+        ("compensation.off", Place::Compensation, &spec.compensation.off),
+        ("compensation.off-alone", Place::Compensation, &spec.compensation.off_alone),
         ("path-control.tolerance", Place::Path, &spec.path_control.tolerance),
         ("path-control.exact", Place::Path, &spec.path_control.exact),
     ]
@@ -114,6 +118,7 @@ fn check_patterns(dialect: &Dialect, errors: &mut Vec<Diagnostic>) {
         check_collision(dialect, items, path, errors);
     }
     check_arc(dialect, errors);
+    check_compensation(dialect, errors);
     super::check_curves::check(dialect, errors);
 }
 
@@ -122,6 +127,7 @@ fn needed(dialect: &Dialect, path: &str) -> &'static [&'static str] {
     let spec = &dialect.spec;
     let pieces = spec.nurbs.knots == "pieces";
     let curves = spec.nurbs.knots != "none" && !pieces;
+    let compensates = !spec.compensation.left.is_empty();
     match path {
         "patterns.rapid" | "patterns.line" => &["x", "y", "z"],
         "patterns.hole" if spec.cycles.values().any(|c| c.enabled) => &["x", "y"],
@@ -130,8 +136,28 @@ fn needed(dialect: &Dialect, path: &str) -> &'static [&'static str] {
         "nurbs.point" if pieces => &["feed"],
         "spindle.on" => &["spindle"],
         "dwell.block" => &["dwell"],
+        "compensation.left" | "compensation.right"
+            if spec.compensation.register == "always" && compensates =>
+        {
+            &["register"]
+        }
         "path-control.tolerance" if !spec.path_control.tolerance.is_empty() => &["path-tolerance"],
         _ => &[],
+    }
+}
+
+/// Cutter compensation that begins can end.
+fn check_compensation(dialect: &Dialect, errors: &mut Vec<Diagnostic>) {
+    let rules = &dialect.spec.compensation;
+    let mut say = |path: &str, message: &str| {
+        errors.push(at(dialect, path, &codes::post::BAD_PATTERN, message.to_owned()));
+    };
+    let parts = [("left", &rules.left), ("right", &rules.right), ("off", &rules.off)];
+    if parts.iter().any(|(_, p)| p.is_empty()) && parts.iter().any(|(_, p)| !p.is_empty()) {
+        for (name, _) in parts.iter().filter(|(_, p)| p.is_empty()) {
+            let message = "of `left`, `right` and `off` all are said, or none";
+            say(&format!("compensation.{name}"), message);
+        }
     }
 }
 

@@ -15,6 +15,7 @@ impl Events<'_> {
     /// Prints what stands before the first hole, and keeps what goes into its block.
     pub(super) fn begin_cycle(&mut self, index: u32) {
         let Some(cycle) = self.program.cycles.get(index as usize).copied() else { return };
+        self.end_compensation();
         let name = cycle.kind.name().text();
         let Some(rules) = self.writer.dialect.spec.cycles.get(name).filter(|c| c.enabled) else {
             // Lowering keeps only the cycles that the dialect has.

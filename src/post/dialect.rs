@@ -99,6 +99,11 @@ impl Spec {
         let limit = self.words.get(word).and_then(|w| w.max).map_or(f64::INFINITY, |m| m.of(unit));
         crate::target::number::steps(limit, self.decimals(word, unit)).unwrap_or(1_000_000_000_000_000)
     }
+    /// Whether straight moves have a place for what cutter compensation says; else it has blocks of its own.
+    #[must_use]
+    pub fn compensation_in_moves(&self) -> bool {
+        [&self.patterns.rapid, &self.patterns.line].iter().all(|p| p.iter().any(|i| i == "compensation"))
+    }
     /// The value of an option, whatever its case.
     #[must_use]
     pub fn option<'a>(options: &'a BTreeMap<String, String>, name: &str) -> Option<&'a str> {

@@ -136,6 +136,7 @@ impl<'a> Events<'a> {
             BlockKind::ToolChange(tool) => self.tool_change(index, *tool),
             BlockKind::Spindle(spindle) => self.spindle(*spindle),
             BlockKind::Coolant(coolant) => self.coolant(*coolant),
+            BlockKind::Compensation(on) => self.compensation(*on),
             BlockKind::Dwell(seconds) => self.dwell(*seconds),
             BlockKind::Stop => self.stop(false),
             BlockKind::OptionalStop => self.stop(true),
@@ -151,6 +152,7 @@ impl<'a> Events<'a> {
     }
 
     fn begin(&mut self) {
+        self.begin_compensation();
         let spec = &self.writer.dialect.spec;
         let context = Value::from(Serde(self.context()));
         self.template("templates.header", &spec.templates.header, &context);
@@ -176,6 +178,7 @@ impl<'a> Events<'a> {
     /// The program leaves the control in feed per minute.
     fn end(&mut self) {
         let spec = &self.writer.dialect.spec;
+        self.end_compensation();
         self.home_plane();
         self.through_off();
         if !matches!(self.writer.state.mode, None | Some(PER_MINUTE)) {
@@ -188,6 +191,7 @@ impl<'a> Events<'a> {
     /// What the machine did in a tool change is its own affair: everything is said again after it.
     fn tool_change(&mut self, index: usize, tool: u32) {
         let change = &self.writer.dialect.spec.tool_change;
+        self.end_compensation();
         self.tool = Some(tool);
         let Some(tool) = self.program.tools.get(tool as usize) else { return };
         if self.tool_changes > 0 {

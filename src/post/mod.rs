@@ -12,6 +12,7 @@
 mod check;
 mod check_curves;
 pub mod comment;
+mod compensation;
 mod context;
 mod curves;
 mod cycles;

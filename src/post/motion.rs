@@ -16,11 +16,11 @@ const ALL_AXES: u8 = axes::X | axes::Y | axes::Z | axes::ROTARY;
 const PLANE_AXES: [[usize; 3]; 3] = [[0, 1, 2], [2, 0, 1], [1, 2, 0]];
 
 /// A motion in the form that patterns read.
-struct MotionBlock {
+pub(super) struct MotionBlock {
     pattern: usize,
     code: usize,
-    to: Position,
-    axes: u8,
+    pub to: Position,
+    pub axes: u8,
     plane: usize,
     centre: [i64; 2],
     feed: Option<(usize, i64)>,
@@ -136,6 +136,7 @@ impl Writer<'_> {
                 Item::FeedMode => self.feed_mode(block),
                 Item::Direction => self.direction(block),
                 Item::Plane => self.plane(block.plane),
+                Item::Compensation => self.compensation(block),
                 Item::NewLine => {
                     self.end_line();
                     self.begin_line(true);

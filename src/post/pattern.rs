@@ -84,10 +84,11 @@ pub enum Named {
     Knot,
     Weight,
     Axis,
+    Register,
 }
 
 impl Named {
-    const ALL: [Named; 7] = [
+    const ALL: [Named; 8] = [
         Named::Spindle,
         Named::Dwell,
         Named::PathTolerance,
@@ -95,6 +96,7 @@ impl Named {
         Named::Knot,
         Named::Weight,
         Named::Axis,
+        Named::Register,
     ];
     /// Name in post files.
     #[must_use]
@@ -107,6 +109,7 @@ impl Named {
             Named::Knot => "knot",
             Named::Weight => "weight",
             Named::Axis => "axis",
+            Named::Register => "register",
         }
     }
 }
@@ -164,6 +167,8 @@ pub enum Item {
     Direction,
     /// The plane of an arc, when it changes.
     Plane,
+    /// What cutter compensation says in a straight move.
+    Compensation,
     /// The code of a spindle command.
     Code,
     /// The call of a drilling cycle, where it must be said.
@@ -208,6 +213,7 @@ pub enum Place {
     Spindle,
     Dwell,
     Path,
+    Compensation,
 }
 
 impl Place {
@@ -215,8 +221,8 @@ impl Place {
     #[must_use]
     pub const fn items(self) -> &'static [&'static str] {
         match self {
-            Place::Rapid => &["motion", "x", "y", "z", "rotary", "feed"],
-            Place::Line => &["feed-mode", "motion", "x", "y", "z", "rotary", "feed"],
+            Place::Rapid => &["motion", "compensation", "x", "y", "z", "rotary", "feed"],
+            Place::Line => &["feed-mode", "motion", "compensation", "x", "y", "z", "rotary", "feed"],
             Place::Arc => &[
                 "feed-mode",
                 "plane",
@@ -246,6 +252,7 @@ impl Place {
             Place::Spindle => &["spindle", "code"],
             Place::Dwell => &["dwell"],
             Place::Path => &["path-tolerance"],
+            Place::Compensation => &["register"],
         }
     }
 }
@@ -259,6 +266,7 @@ impl Item {
             "feed-mode" => Some(Item::FeedMode),
             "direction" => Some(Item::Direction),
             "plane" => Some(Item::Plane),
+            "compensation" => Some(Item::Compensation),
             "code" => Some(Item::Code),
             "cycle" => Some(Item::Cycle),
             "cycle-words" => Some(Item::CycleWords),

@@ -89,6 +89,7 @@ pub const ROOT: &[Key] = &[
     ),
     key("spindle", Shape::Table(SPINDLE), "spindle"),
     key("coolant", Shape::Table(COOLANT), "coolant"),
+    key("compensation", Shape::Table(COMPENSATION), "cutter compensation of the control"),
     key("stops", Shape::Table(STOPS), "program stops"),
     key("comments", Shape::Table(COMMENTS), "comments"),
     key("path-control", Shape::Table(PATH_CONTROL), "how closely the control follows the path"),
@@ -331,6 +332,26 @@ const COOLANT: &[Key] = &[
     key("through", Shape::Text, "coolant through the tool on; empty: the control has none"),
     key("through-off", Shape::Text, "that off, also before a tool change and at the end; empty: `off` does"),
     key("off", Shape::Text, "off"),
+];
+const COMPENSATION: &[Key] = &[
+    key(
+        "left",
+        Shape::TextList,
+        "what begins it with the cutter left of the path, with the word `register` where that is said: in the pattern item `compensation` of the first straight move in X or Y, or in a block of its own where `rapid` or `line` has no such item; empty: the control has no compensation",
+    ),
+    key("right", Shape::TextList, "the same with the cutter right of the path"),
+    key("off", Shape::TextList, "what ends it, in the same place"),
+    key(
+        "off-alone",
+        Shape::TextList,
+        "the block that ends it where no straight move in X or Y comes before a tool change, a drilling cycle or the end; empty: as `off`",
+    ),
+    key("every-move", Shape::Flag, "every straight move says what is in force"),
+    key(
+        "register",
+        Shape::Choice(&["of-tool", "as-named", "always"]),
+        "the register of the radius: the tool's own and never said; said where the program names one; or always said, with the number of the tool where the program names none",
+    ),
 ];
 const STOPS: &[Key] = &[
     key("stop", Shape::Text, "program stop"),

@@ -80,6 +80,7 @@ pub struct Spec {
     pub cycles: BTreeMap<String, Cycle>,
     pub spindle: Spindle,
     pub coolant: Coolant,
+    pub compensation: Compensation,
     pub stops: Stops,
     pub comments: Comments,
     pub path_control: PathControl,
@@ -404,6 +405,19 @@ pub struct Coolant {
     pub through: String,
     #[serde(default)]
     pub through_off: String,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub struct Compensation {
+    pub left: Vec<String>,
+    pub right: Vec<String>,
+    pub off: Vec<String>,
+    #[serde(default)]
+    pub off_alone: Vec<String>,
+    pub every_move: bool,
+    pub register: String,
 }
 
 #[derive(Debug, Clone, Deserialize)]

@@ -57,6 +57,10 @@ pub(super) struct MotionTable {
     pub drop_zero: bool,
     pub signed_radius: bool,
     pub full_circle: FullCircleWords,
+    /// Straight moves have a place for what cutter compensation says.
+    pub compensation_in_moves: bool,
+    /// And say what is in force each time.
+    pub compensation_every_move: bool,
     /// F of rapid moves, in steps, where they need one.
     pub rapid_feed: Option<i64>,
     /// Steps of centre words in one step of linear words.
@@ -104,6 +108,8 @@ impl MotionTable {
             drop_zero: spec.arcs.zero_offsets == "drop",
             signed_radius: spec.arcs.signed_radius,
             full_circle: spec.arcs.full_circle,
+            compensation_in_moves: spec.compensation_in_moves(),
+            compensation_every_move: spec.compensation.every_move && spec.compensation_in_moves(),
             rapid_feed: rapid_feed(spec, capabilities),
             centre_per_linear: centre_per_linear(capabilities),
             separator: bytes(&spec.line.separator),

@@ -3,6 +3,7 @@
 //! Motion runs on [`MotionTable`]: integers to digits, modality by comparing the integers that are printed.
 //! Everything else is cold and goes through words or templates.
 
+use super::compensation::Compensating;
 use super::dialect::{Dialect, NumberingMode};
 use super::table::{INVERSE_TIME, MotionTable, PER_MINUTE, PER_REVOLUTION, WordFormat};
 use crate::arena::Handle;
@@ -36,6 +37,7 @@ pub(super) struct WriterCarry {
     state: ModalState,
     position: Position,
     with_first_z: Vec<u8>,
+    compensating: Compensating,
     line: u32,
     next_number: u32,
     last_number: u32,
@@ -60,6 +62,8 @@ pub(super) struct Writer<'a> {
     pub position: Position,
     /// Words that wait for the first block that moves Z.
     pub with_first_z: Vec<u8>,
+    /// What cutter compensation has said.
+    pub compensating: Compensating,
     /// Call and words of a drilling cycle that wait for its first hole.
     pub cycle: [Vec<u8>; 2],
     /// Start of the current line in `out`, and of its words after a block number.
@@ -92,6 +96,7 @@ impl<'a> Writer<'a> {
             state: ModalState::default(),
             position: Position::default(),
             with_first_z: Vec::new(),
+            compensating: Compensating::default(),
             cycle: [Vec::new(), Vec::new()],
             continued: false,
             line_start: 0,
@@ -112,6 +117,7 @@ impl<'a> Writer<'a> {
             state: self.state.clone(),
             position: self.position,
             with_first_z: self.with_first_z.clone(),
+            compensating: self.compensating.clone(),
             line: self.line,
             next_number: self.next_number,
             last_number: self.last_number,
@@ -124,6 +130,7 @@ impl<'a> Writer<'a> {
         self.state = carry.state;
         self.position = carry.position;
         self.with_first_z = carry.with_first_z;
+        self.compensating = carry.compensating;
         self.line = carry.line;
         self.next_number = carry.next_number;
         self.last_number = carry.last_number;

@@ -26,8 +26,8 @@ pub use word::{Statement, statements};
 
 pub(crate) use curve::point as nurbs_point;
 pub use trace::{
-    EventKind, Fault, FeedMode, MOST_FAULTS, SpaceCurve, Tilted, Trace, TraceEvent, TraceMove, TracePath,
-    Washing,
+    Compensated, EventKind, Fault, FeedMode, MOST_FAULTS, SpaceCurve, Tilted, Trace, TraceEvent, TraceMove,
+    TracePath, Washing,
 };
 
 /// The machine about the control, as far as a program's meaning depends on it.

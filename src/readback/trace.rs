@@ -1,7 +1,7 @@
 //! What a program makes the machine do.
 
 use super::{Follow, curve};
-use crate::geom::{Point2, Point3, Vec3};
+use crate::geom::{Point2, Point3, Side, Vec3};
 
 /// Most complaints kept in a [`Trace`]; a program with more is broken all over.
 pub const MOST_FAULTS: usize = 1000;
@@ -106,6 +106,8 @@ pub struct TraceMove {
     pub length_offset: bool,
     /// Coolant.
     pub coolant: Washing,
+    /// Cutter compensation in force, by which the control moves the path.
+    pub compensation: Option<Compensated>,
     /// Work offset in force, as the control counts them: 1 for the first one (G54), 7 for the one after G59; a preset's own
     /// number. `None` when the program has not selected one.
     pub work_offset: Option<u16>,
@@ -113,6 +115,23 @@ pub struct TraceMove {
     pub in_cycle: bool,
     /// How far the control may leave the path by its own smoothing, mm: 0 on exact path, infinite without a bound.
     pub path_tolerance: f64,
+}
+
+/// Compensation of the cutter's radius by the control. Paths are as programmed: the control moves them by what its register
+/// holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Compensated {
+    /// The side of the path to which it is moved, seen along the way.
+    pub side: Side,
+    /// The register of the radius, where the program has named one.
+    pub register: Option<u32>,
+}
+
+impl core::fmt::Display for Compensated {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(if self.side == Side::Left { "left" } else { "right" })?;
+        self.register.map_or(Ok(()), |register| write!(f, " by register {register}"))
+    }
 }
 
 /// What is switched on to wash the cutter.

@@ -58,6 +58,7 @@ pub(super) const ROWS: &[Try] = &[
     tools::SPINDLE,
     tools::WORK_OFFSET,
     tools::COOLANT,
+    tools::COMPENSATION,
     tools::STOP,
     tools::OPTIONAL_STOP,
     cycles::DRILL,

@@ -3,6 +3,8 @@
 
 use crate::diag::Diagnostic;
 use crate::diag::codes::foreign;
+use crate::geom::Side;
+use crate::ir::{Compensation, StepKind};
 
 use super::Analyser;
 use super::matched::Matched;
@@ -11,16 +13,32 @@ use super::matched::Matched;
 const ALONG_Z: f64 = 1e-6;
 
 impl Analyser<'_> {
-    /// `CUTCOM/`: points are the cutter's centre, a control's own compensation on top is not written.
+    /// `CUTCOM/`: the control moves the path by what its register holds.
     pub(super) fn cutcom(&mut self, m: &Matched) {
-        if m.form != "on" || core::mem::replace(&mut self.state.compensation_told, true) {
-            return;
+        if m.form != "on" {
+            return self.step(StepKind::Compensation(None));
         }
-        let message =
-            "the path is written as the points say, without the control's own compensation (G41, G42)";
-        self.report(
-            Diagnostic::new(&foreign::NO_COMPENSATION, m.word, message).help(foreign::NO_COMPENSATION_HELP),
-        );
+        let side = match m.word("side") {
+            Some("LEFT") => Some(Side::Left),
+            Some("RIGHT") => Some(Side::Right),
+            _ => self.state.last_compensation.map(|last| last.side),
+        };
+        let Some(side) = side else {
+            let message = "CUTCOM/ ON goes on with the side that was in force, and there was none";
+            return self
+                .report(Diagnostic::new(&foreign::BAD_RECORD, m.word, message).help("write LEFT or RIGHT"));
+        };
+        if let Some(plane @ ("YZPLAN" | "ZXPLAN")) = m.word("plane") {
+            let message = format!("CUTCOM in the plane {plane} cannot be carried out");
+            return self.report(Diagnostic::new(&foreign::NOT_CARRIED_OUT, m.word, message));
+        }
+        let named = m.number("register").map(|n| n as u32);
+        let register = named.or(self.state.last_compensation.and_then(|last| last.register));
+        self.state.last_compensation = Some(Compensation { side, register });
+        // The image of a path that is mirrored has the cutter on its other side.
+        let mirrored = self.state.transform.as_ref().is_some_and(|(map, _)| map.mirrors_plan());
+        let side = if mirrored { side.opposite() } else { side };
+        self.step(StepKind::Compensation(Some(Compensation { side, register })));
     }
 
     /// `TLAXIS/` and the last three numbers of `GOTO/`: along Z, or an error, once for a program.

@@ -68,8 +68,8 @@ pub(super) struct State {
     pub cycle_feeds: bool,
     /// The `TRACUT` that has been told to tilt holes.
     pub tilt_told: Option<Span>,
-    /// `CUTCOM` has had its warning.
-    pub compensation_told: bool,
+    /// Side and register that `CUTCOM` has given last.
+    pub last_compensation: Option<ir::Compensation>,
     /// `MULTAX/ ON`: points may have a tool axis.
     pub multi_axis: bool,
     /// A tool axis off Z has had its error.
@@ -112,7 +112,7 @@ impl Default for State {
             cycle: false,
             cycle_feeds: false,
             tilt_told: None,
-            compensation_told: false,
+            last_compensation: None,
             multi_axis: false,
             axis_told: false,
             position: None,

@@ -79,6 +79,12 @@ impl Transform {
         }))
     }
 
+    /// Whether what goes on in plan is mirrored.
+    #[must_use]
+    pub fn mirrors_plan(&self) -> bool {
+        let [[a, b, ..], [c, d, ..], _] = self.0;
+        a * d - b * c < 0.0
+    }
     /// The image of a point.
     #[must_use]
     pub fn point(&self, p: [f64; 3]) -> [f64; 3] {

@@ -13,7 +13,7 @@ use crate::arena::Handle;
 use crate::geom::Side;
 use crate::geom::curve::CurveRef;
 use crate::ir::CycleName;
-use crate::ir::{Band, Coolant, Origin, Spindle, Tool};
+use crate::ir::{Band, Compensation, Coolant, Origin, Spindle, Tool};
 use crate::units::LengthUnit;
 
 mod arc;
@@ -130,6 +130,8 @@ pub struct Capabilities {
     pub flood: bool,
     /// Coolant through the tool can be switched.
     pub through: bool,
+    /// Compensation of the cutter's radius by the control, if it has one.
+    pub compensation: Option<Register>,
     /// Optional stop.
     pub optional_stop: bool,
     /// After a stop of the program spindle and coolant are said again before the next move.
@@ -211,6 +213,29 @@ pub enum RotaryFeed {
     LinearAxes,
     /// The control mixes the axes as if one output unit were one degree (Fanuc default).
     UnitsAsDegrees,
+}
+
+/// The register that holds the radius by which a control moves a path.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Register {
+    /// The control takes the radius of the tool that is in the spindle; it is not said which.
+    OfTool,
+    /// Said where the program names one.
+    AsNamed,
+    /// Always said; it has the tool's number where the program names none.
+    Always,
+}
+
+impl Register {
+    /// The register that a block names, for a program's own and the number of the tool.
+    #[must_use]
+    pub fn said(self, named: Option<u32>, tool: Option<u32>) -> Option<u32> {
+        match self {
+            Register::OfTool => None,
+            Register::AsNamed => named,
+            Register::Always => named.or(tool),
+        }
+    }
 }
 
 /// Path-following word of a control.
@@ -407,6 +432,9 @@ pub enum BlockKind {
     Spindle(Spindle),
     /// Coolant.
     Coolant(Coolant),
+    /// Compensation of the cutter's radius, with the register that the block names, from the next straight move in X or Y
+    /// on; `None` ends it there.
+    Compensation(Option<Compensation>),
     /// Dwell, seconds.
     Dwell(f64),
     /// Stop.

@@ -65,6 +65,8 @@ fn line(out: &mut String, program: &TargetProgram, block: &Block) {
             format!("spindle {rpm} {}", if *clockwise { "clockwise" } else { "counter-clockwise" })
         }
         BlockKind::Coolant(coolant) => format!("coolant {}", coolant_name(*coolant)),
+        BlockKind::Compensation(None) => "compensation off".into(),
+        BlockKind::Compensation(Some(on)) => format!("compensation {on}"),
         BlockKind::Dwell(seconds) => format!("dwell {seconds} s"),
         BlockKind::Stop => "stop".into(),
         BlockKind::OptionalStop => "optional-stop".into(),

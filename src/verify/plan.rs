@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use crate::arena::Handle;
 use crate::cl::{Cl, RecordKind};
-use crate::ir::{Coolant, Feed, Origin, Spindle};
+use crate::ir::{Compensation, Coolant, Feed, Origin, Spindle};
 use crate::target::{BlockKind, TargetProgram};
 
 /// State that the CL data puts in force.
@@ -17,6 +17,8 @@ pub(super) struct Asked {
     pub spindle: f64,
     /// Coolant.
     pub coolant: Coolant,
+    /// Cutter compensation.
+    pub compensation: Option<Compensation>,
 }
 
 /// What a part of a program leaves in force for the next.
@@ -151,6 +153,7 @@ impl Orders {
                 RecordKind::BeginOperation(index) => *operation = Some(*index as usize),
                 RecordKind::Spindle(spindle) => asked.spindle = signed(*spindle),
                 RecordKind::Coolant(c) => asked.coolant = *c,
+                RecordKind::Compensation(on) => asked.compensation = *on,
                 RecordKind::Feed(f) => *feed = *f,
                 RecordKind::BeginCycle(cycle) => {
                     let into = per_minute(cycle.feed, asked.spindle);

@@ -5,7 +5,7 @@ use super::{Case, Placed};
 use crate::cl::RecordKind;
 use crate::diag::codes::verification as codes;
 use crate::ir::Coolant;
-use crate::readback::Washing;
+use crate::readback::{Compensated, TracePath, Washing};
 use crate::target::{BlockKind, FeedWord, Motion, power_of_ten};
 
 /// How far a feed along the path may differ from the one commanded, as a share of it. Covers the rounding of F words,
@@ -43,6 +43,9 @@ pub(super) fn check(case: &Case<'_>, placed: &Placed<'_>) -> Vec<Finding> {
     if let Some(text) = coolant(case, placed) {
         say(&codes::NOT_READY, text);
     }
+    if let Some(text) = compensation(case, placed) {
+        say(&codes::NOT_READY, text);
+    }
     if let Some(text) = work_offset(case, placed) {
         say(&codes::WRONG_OFFSET, text);
     }
@@ -60,6 +63,25 @@ fn tool(case: &Case<'_>, placed: &Placed<'_>) -> Option<Text> {
     (got != 0 && got != number).then(|| {
         Text::default().words(format!("a cut with tool {got} in place of {number} ({})", wanted.name))
     })
+}
+
+/// The cutter compensation that was asked for is in force on every cut in X or Y, where the control has one.
+fn compensation(case: &Case<'_>, placed: &Placed<'_>) -> Option<Text> {
+    let wanted = asked(case, placed)?.compensation.zip(case.target.capabilities.compensation);
+    let tool = case.context(placed.block).tool.and_then(|t| case.target.tools.get(t as usize));
+    let wanted = wanted.map(|(on, register)| Compensated {
+        side: on.side,
+        register: register.said(on.register, tool.and_then(|t| t.number)),
+    });
+    let got = placed.cut.compensation;
+    let across = !matches!(placed.cut.path, TracePath::Line { from, to } if from == to);
+    (got != wanted && across).then(|| {
+        Text::default().words(format!("a cut with {} in place of {}", compensated(got), compensated(wanted)))
+    })
+}
+
+fn compensated(on: Option<Compensated>) -> String {
+    on.map_or_else(|| "no cutter compensation".to_owned(), |on| format!("cutter compensation {on}"))
 }
 
 /// The work offset in force is the one asked for, where the post selects one.

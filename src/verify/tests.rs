@@ -29,6 +29,7 @@ fn cut(path: TracePath) -> TraceMove {
         parked: false,
         length_offset: true,
         coolant: crate::readback::Washing::default(),
+        compensation: None,
         work_offset: Some(1),
         in_cycle: false,
         path_tolerance: 0.0,

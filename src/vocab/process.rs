@@ -221,17 +221,21 @@ const CUTCOM: &[Form] = &[
     form("off", "switches it off", &[Item::Word("state", &[word("OFF", "none, G40")])], &[]),
     form(
         "on",
-        "asks for it; the path is written as the cutter's centre, with a warning",
+        "from the next straight move in X or Y on the control moves the path by what its register holds; it ends on a straight move, too",
         &[
             Item::Word(
                 "side",
                 &[
-                    word("LEFT", "cutter left of the contour, G41"),
-                    word("RIGHT", "cutter right of the contour, G42"),
+                    word("LEFT", "to the left of travel, G41"),
+                    word("RIGHT", "to the right of travel, G42"),
                     word("ON", "as before"),
                 ],
             ),
-            optional("register", Kind::Count(0, 99_999_999), "number of the offset in the control"),
+            optional(
+                "register",
+                Kind::Count(0, 99_999_999),
+                "the control's register of the radius; the number of the tool where it is not said",
+            ),
         ],
         &[PLANE],
     ),
@@ -403,8 +407,8 @@ pub const ROWS: &[Statement] = &[
     ),
     row(
         "CUTCOM",
-        "cutter compensation of the control; paths here are those of the cutter's centre and need none",
-        "CUTCOM/ OFF",
+        "cutter compensation by the control: G41 and G42 with D, RL and RR; the path is proven for a radius of 0",
+        "CUTCOM/ LEFT",
         CUTCOM,
     ),
     row("DELAY", "dwells", "DELAY/ 2s", DELAY),

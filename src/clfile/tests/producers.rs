@@ -3,7 +3,7 @@
 use super::{framed, kinds, read, read_as};
 use crate::cl::{Circle, Cl, Cycle, CycleKind, RecordKind, RetractTo};
 use crate::clfile::{Producer, recognise};
-use crate::geom::Point3;
+use crate::geom::{Point3, Side};
 
 fn circles(cl: &Cl) -> Vec<Circle> {
     cl.records
@@ -264,11 +264,22 @@ fn mastercam_holes_off_z_and_turned_planes_are_refused() {
     assert_eq!(codes, ["E1003"]);
     let (_, codes) = drilled("1014\n1. 0. 0. 0. 1. 0. 0. 0. 1.");
     assert_eq!(codes, [""; 0]);
-    // the control's compensation would move the path by the radius
-    let (_, codes) = drilled("1\n41 10. 0. -1. 100. 0\n1\n0 20. 0. -1. 100. 0");
-    assert_eq!(codes, ["E1003"]);
     let (_, codes) = drilled("1\n0 10. zero -1. 100. 0");
     assert_eq!(codes, ["E1002"]);
+}
+
+#[test]
+fn mastercam_compensation_of_the_control_is_that_of_its_lines() {
+    let (cl, codes) = drilled("1\n41 10. 0. -1. 100. 0\n1\n0 20. 0. -1. 100. 0\n1\n40 20. 9. -1. 100. 0");
+    assert_eq!(codes, [""; 0]);
+    let changes: Vec<Option<Side>> = cl
+        .records
+        .iter()
+        .filter_map(
+            |r| if let RecordKind::Compensation(on) = r.kind { Some(on.map(|on| on.side)) } else { None },
+        )
+        .collect();
+    assert_eq!(changes, [Some(Side::Left), None]);
 }
 
 #[test]

@@ -156,10 +156,10 @@ const EXAMPLES: &[(&str, &[&str])] = &[
         &[
             "CUTCOM/ LEFT, XYPLAN\nGOTO/ 1, 1, 1\nCUTCOM/ OFF",
             "CUTCOM/ RIGHT",
-            "CUTCOM/ ON",
+            "CUTCOM/ LEFT\nGOTO/ 1, 1, 1\nCUTCOM/ OFF\nGOTO/ 2, 1, 1\nCUTCOM/ ON",
             "CUTCOM/ ON, LENGTH, 3, NOW",
-            "CUTCOM/ LEFT, YZPLAN, ADJUST, 3, XAXIS, NEXT",
-            "CUTCOM/ RIGHT, ZXPLAN, OSETNO, 3, YAXIS\nCUTCOM/ NOMORE",
+            "CUTCOM/ LEFT, XYPLAN, ADJUST, 3, XAXIS, NEXT",
+            "CUTCOM/ RIGHT, XYPLAN, OSETNO, 3, YAXIS\nGOTO/ 1, 1, 1\nCUTCOM/ NOMORE",
         ],
     ),
     ("MSYS", &["MSYS/ 0, 0, 0, 1, 0, 0, 0, 1, 0"]),

@@ -59,7 +59,9 @@ fn nothing_is_dropped_in_silence() {
         ("FINI\nGOTO/ 1, 1, 1", "W0252"),
         ("CYCLE/ WOBBLE, FEDTO, 20, MMPM, 120, RAPTO, 2", "E1006"),
         ("NURBS/\nKNOT/ 0.5, 1.0\nCNTRL/ 1, 0, 0", "E1007"),
-        ("CUTCOM/ LEFT, XYPLAN", "W1010"),
+        ("CUTCOM/ LEFT, YZPLAN", "E1003"),
+        ("CUTCOM/ ON", "E1002"),
+        ("CUTCOM/ LEFT, ADJUST, 2.5", "E1002"),
         ("CUTCOM/ NORMDS", "E1003"),
         (
             "CYCLE/ DRILL, FEDTO, 9, MMPM, 50, RAPTO, 2\nGOTO/ 1, 1, 0\nCIRCLE/ 0, 1, 0, 0, 0, 1, 1\nGOTO/ -1, 1, 0\nGOTO/ 5, 1, 0",

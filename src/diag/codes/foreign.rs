@@ -72,6 +72,19 @@ pub const NO_COMPENSATION: Code = Code {
 /// What to do about [`NO_COMPENSATION`].
 pub const NO_COMPENSATION_HELP: &str = "if the points are the part's contour and not the cutter's centre, write the path of the centre instead: as it is, it cuts into the part by the radius";
 
+/// the control moves the path by what its register holds.
+pub const COMPENSATED: Code = Code {
+    id: "N1022",
+    title: "the control moves the path by what its register holds",
+    page: include_str!("../../../docs/diagnostics/N1022.md"),
+};
+
+/// What [`COMPENSATED`] says.
+pub const COMPENSATED_MESSAGE: &str =
+    "the control moves this path by the radius that it holds: the proof is for a radius of 0";
+/// And what to do about it.
+pub const COMPENSATED_HELP: &str = "for points of the cutter's centre keep 0 there, or the wear alone; for points of the contour, the cutter's radius";
+
 /// an arc does not go through its points.
 pub const ARC_NOT_TRUSTED: Code = Code {
     id: "W1011",
@@ -161,6 +174,7 @@ pub const ALL: &[&Code] = &[
     &BAD_DEFINE,
     &UNKNOWN_PRODUCER,
     &NO_COMPENSATION,
+    &COMPENSATED,
     &ARC_NOT_TRUSTED,
     &FIRST_AT_RAPID,
     &CURVE_AS_LINES,

@@ -142,6 +142,13 @@ pub const TAP_HAND: Code = Code {
     page: include_str!("../../../docs/diagnostics/E0610.md"),
 };
 
+/// cutter compensation cannot be in force here.
+pub const COMPENSATION: Code = Code {
+    id: "E0611",
+    title: "cutter compensation cannot be in force here",
+    page: include_str!("../../../docs/diagnostics/E0611.md"),
+};
+
 /// All codes of this area.
 pub const ALL: &[&Code] = &[
     &CANNOT_FIT,
@@ -164,4 +171,5 @@ pub const ALL: &[&Code] = &[
     &ONE_PECK,
     &NO_THROUGH,
     &TAP_HAND,
+    &COMPENSATION,
 ];

@@ -3,6 +3,7 @@
 mod changes;
 mod circles;
 mod cl;
+mod compensation;
 mod plate;
 
 use crate::cl::Cl;

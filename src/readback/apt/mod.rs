@@ -4,8 +4,8 @@
 //! CIRCLE says how the next point is reached, every point after CYCLE is a hole.
 
 use super::out::Out;
-use super::{EventKind, FeedMode, Follow, MachineSetup, Tilted, TraceMove, TracePath, Washing};
-use crate::geom::{Point3, Vec3};
+use super::{Compensated, EventKind, FeedMode, Follow, MachineSetup, Tilted, TraceMove, TracePath, Washing};
+use crate::geom::{Point3, Side, Vec3};
 use crate::math::{TAU, atan2};
 
 mod cycle;
@@ -49,6 +49,7 @@ pub(super) struct Reader<'a> {
     direction: f64,
     tool: u32,
     coolant: Washing,
+    compensation: Option<Compensated>,
     cycle: Option<cycle::Cycle>,
     in_cycle: bool,
     over: bool,
@@ -69,6 +70,7 @@ impl<'a> Reader<'a> {
             direction: 0.0,
             tool: 0,
             coolant: Washing::default(),
+            compensation: None,
             cycle: None,
             in_cycle: false,
             over: false,
@@ -142,6 +144,7 @@ impl<'a> Reader<'a> {
                 ["OFF"] => self.coolant = Washing::default(),
                 _ => out.fault("COOLNT is ON, FLOOD, MIST, THRU or OFF"),
             },
+            "CUTCOM" => self.compensate(arguments, out),
             "LOADTL" => self.load(arguments.first().copied(), out),
             "LOAD" if arguments.first() == Some(&"TOOL") => self.load(arguments.get(1).copied(), out),
             "DELAY" => match arguments {
@@ -245,6 +248,25 @@ impl<'a> Reader<'a> {
     }
 
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+    fn compensate<S: Follow>(&mut self, arguments: &[&str], out: &mut Out<'_, S>) {
+        let side = match arguments.first() {
+            Some(&"LEFT") => Side::Left,
+            Some(&"RIGHT") => Side::Right,
+            Some(&"OFF") if arguments.len() == 1 => return self.compensation = None,
+            _ => return out.fault("CUTCOM is LEFT, RIGHT or OFF"),
+        };
+        let register = match arguments.get(1..).unwrap_or_default() {
+            [] => None,
+            [number] => match value(number).filter(|n| n.fract() == 0.0 && (0.0..1e9).contains(n)) {
+                Some(number) => Some(number as u32),
+                None => return out.fault(format!("{number} in CUTCOM")),
+            },
+            _ => return out.fault("CUTCOM has at most a register behind the side"),
+        };
+        self.compensation = Some(Compensated { side, register });
+    }
+
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
     fn load<S: Follow>(&mut self, number: Option<&str>, out: &mut Out<'_, S>) {
         let Some(number) = number.and_then(value).filter(|n| n.fract() == 0.0 && (0.0..1e9).contains(n))
         else {
@@ -345,6 +367,7 @@ impl<'a> Reader<'a> {
             parked: false,
             length_offset: self.tool != 0,
             coolant: self.coolant,
+            compensation: self.compensation,
             work_offset: None,
             in_cycle: self.in_cycle,
             path_tolerance: 0.0,

@@ -2,8 +2,9 @@
 
 use super::words::Word;
 use super::{LARGEST, Reader};
+use crate::geom::Side;
 use crate::readback::out::Out;
-use crate::readback::{EventKind, Follow, Washing};
+use crate::readback::{Compensated, EventKind, Follow, Washing};
 
 /// What the words of a motion block ask for.
 #[derive(Debug, Default, Clone)]
@@ -16,6 +17,8 @@ pub(super) struct Asked {
     pub radius: Option<f64>,
     /// `DR-`.
     pub clockwise: Option<bool>,
+    /// R0, RL, RR.
+    pub compensation: Option<Option<Side>>,
     /// FMAX.
     pub rapid: bool,
     /// F word, program units.
@@ -96,6 +99,11 @@ impl Reader<'_> {
         for &m in &asked.m {
             self.early(m, out);
         }
+        if let Some(side) = asked.compensation {
+            let on = side.map(|side| Compensated { side, register: None });
+            self.state.compensation_due |= self.state.compensation != on;
+            self.state.compensation = on;
+        }
         motion(self, &asked, out);
         for &m in &asked.m {
             self.late(m, &asked, out);
@@ -163,7 +171,7 @@ impl Reader<'_> {
         }
         match address {
             "PA" | "IPA" => asked.polar.replace((value, incremental)).is_none(),
-            "R" if value == 0.0 => true,
+            "R" if value == 0.0 => asked.compensation.replace(None).is_none(),
             "R" => asked.radius.replace(value).is_none(),
             "F" => asked.feed.replace(value).is_none(),
             "S" => asked.speed.replace(value).is_none(),
@@ -263,6 +271,9 @@ impl Reader<'_> {
         if self.setup.tools.as_ref().is_some_and(|known| tool != 0 && !known.contains(&tool)) {
             out.fault(format!("tool {tool} is not in the tool table"));
         }
+        if self.state.compensation.is_some() {
+            out.fault("a tool call under radius compensation");
+        }
         self.state.tool = tool;
         self.state.direction = 0.0;
         self.state.known = [false, false, false, self.state.known[3]];
@@ -273,15 +284,12 @@ impl Reader<'_> {
 fn named<S: Follow>(asked: &mut Asked, name: &str, out: &mut Out<'_, S>) -> bool {
     match name {
         "FMAX" => !core::mem::replace(&mut asked.rapid, true),
-        "R0" => true,
+        "RL" => asked.compensation.replace(Some(Side::Left)).is_none(),
+        "RR" => asked.compensation.replace(Some(Side::Right)).is_none(),
         "DR+" => asked.clockwise.replace(false).is_none(),
         "DR-" => asked.clockwise.replace(true).is_none(),
         "MB" | "MAX" => {
             asked.back = true;
-            true
-        }
-        "RL" | "RR" => {
-            out.fault(format!("{name}: radius compensation, which this reader does not follow"));
             true
         }
         _ => {

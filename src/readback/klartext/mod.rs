@@ -6,7 +6,7 @@
 
 use super::curve::Plane;
 use super::out::Out;
-use super::{EventKind, FeedMode, Follow, MachineSetup, Washing};
+use super::{Compensated, EventKind, FeedMode, Follow, MachineSetup, Washing};
 use crate::geom::Point2;
 
 mod blocks;
@@ -63,6 +63,9 @@ struct State {
     tool: u32,
     tool_axis: bool,
     coolant: Washing,
+    compensation: Option<Compensated>,
+    /// The next line in X or Y begins or ends it.
+    compensation_due: bool,
     work_offset: Option<u16>,
     path_tolerance: f64,
     cycle: Option<cycle::Defined>,
@@ -88,6 +91,8 @@ impl<'a> Reader<'a> {
             tool: 0,
             tool_axis: false,
             coolant: Washing::default(),
+            compensation: None,
+            compensation_due: false,
             work_offset: None,
             path_tolerance: 0.0,
             cycle: None,

@@ -329,6 +329,24 @@ impl Reader<'_> {
         self.state.parked &= asked.axes[2].is_none();
     }
 
+    /// What a move may not be while radius compensation begins, is in force or ends.
+    fn compensates<S: Follow>(&mut self, path: &TracePath, out: &mut Out<'_, S>) {
+        let on = self.state.compensation.is_some();
+        if !on && !self.state.compensation_due {
+            return;
+        }
+        match path {
+            _ if on && self.state.in_cycle => out.fault("a cycle under radius compensation"),
+            TracePath::Line { from, to } => self.state.compensation_due &= from == to,
+            TracePath::Arc { .. } if core::mem::take(&mut self.state.compensation_due) => {
+                out.fault("radius compensation begins or ends on a circle");
+            }
+            TracePath::Arc { .. } => {}
+            _ if on => out.fault("only lines and circles of the XY plane under radius compensation"),
+            _ => {}
+        }
+    }
+
     /// Hands a move on and stands at its end.
     pub(super) fn emit<S: Follow>(
         &mut self,
@@ -338,6 +356,7 @@ impl Reader<'_> {
         asked: &Asked,
         out: &mut Out<'_, S>,
     ) {
+        self.compensates(&path, out);
         let state = &self.state;
         let table = state.known[ROTARY] || asked.axes[ROTARY].is_none();
         let feed = if asked.rapid { None } else { self.path_feed(&path, &from, &to) };
@@ -353,6 +372,7 @@ impl Reader<'_> {
             parked: state.parked && asked.axes[2].is_none(),
             length_offset: state.tool != 0,
             coolant: state.coolant,
+            compensation: state.compensation,
             work_offset: state.work_offset,
             in_cycle: state.in_cycle,
             path_tolerance: state.path_tolerance,

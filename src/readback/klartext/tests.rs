@@ -138,7 +138,9 @@ fn the_control_refuses_what_it_refuses() {
         ("L X+1", "feed rate is missing"),
         ("L X+1 F100 R0 Q3=1", "Q3 in a motion block"),
         ("L X+1 X+2 F100", "X2 twice"),
-        ("L X+1 RL F100", "radius compensation"),
+        ("L X+1 RL RR F100", "RR twice"),
+        ("CC X+0 Y+0\nC X+0 Y+10 DR+ RL F100", "begins or ends on a circle"),
+        ("L X+1 RL F100\nTOOL CALL 1 Z S1000", "a tool call under radius compensation"),
         ("L X+100000 F100", "is not in"),
         ("C X+1 Y+1 DR+ F100", "without a pole"),
         ("CC X+0 Y+0\nC X+0 Y+10.017 DR+ F100", "circle end point incorrect"),
@@ -215,6 +217,22 @@ fn drilling_pecks_from_the_surface_and_leaves_to_the_second_clearance() {
     assert_eq!(got[1..8], hole);
     assert_eq!(got[8], "R 4 2 10");
     assert_eq!(got[9..].len(), 7);
+    let text = program("MM", &format!("{DRILL}\nL X+1 Y+2 RL FMAX M99"));
+    let faults = trace(&text).faults;
+    assert!(faults.iter().any(|f| f.message == "a cycle under radius compensation"), "{faults:?}");
+}
+
+#[test]
+fn radius_compensation_holds_until_another_word() {
+    let body = "L X+20 RL F100\nL Y+10\nCC X+10 Y+10\nC X+10 Y+20 DR+\nL Z+9 R0\nL X+0";
+    let trace = trace(&program("MM", body));
+    assert!(trace.faults.is_empty(), "{:?}", trace.faults);
+    let sides: Vec<bool> = trace
+        .events
+        .iter()
+        .filter_map(|e| if let EventKind::Move(m) = &e.kind { Some(m.compensation.is_some()) } else { None })
+        .collect();
+    assert_eq!(sides, [false, false, true, true, true, false, false, false]);
 }
 
 #[test]

@@ -90,6 +90,11 @@ pub(in crate::readback) enum G {
     Feed(FeedMode),
     /// G40.
     RadiusOff,
+    /// G41, G42.
+    Radius {
+        /// The side of the path to which the cutter is moved.
+        side: crate::geom::Side,
+    },
     /// G43.
     LengthOn,
     /// G49.
@@ -191,7 +196,7 @@ impl G {
             G::Distance { .. } => Group::Distance,
             G::ArcDistance { .. } => Group::ArcDistance,
             G::Feed(_) => Group::Feed,
-            G::RadiusOff => Group::Radius,
+            G::RadiusOff | G::Radius { .. } => Group::Radius,
             G::LengthOn | G::LengthOff => Group::Length,
             G::WorkOffset(_) => Group::Offset,
             G::Return { .. } => Group::Return,

@@ -1,6 +1,7 @@
 //! Codes that controls share: ISO 6983's own, and those of the dialects that follow RS-274.
 
 use super::codes::{CycleKind, G, M, Mode};
+use crate::geom::Side;
 use crate::readback::FeedMode;
 use crate::readback::curve::Plane;
 
@@ -33,6 +34,12 @@ pub(super) fn rs274(tenths: u16) -> Option<G> {
         940 => G::Feed(FeedMode::PerMinute),
         _ => return g(tenths).or_else(|| offset(tenths)),
     })
+}
+
+/// G41, G42.
+pub(super) fn radius(tenths: u16) -> Option<G> {
+    let side = if tenths == 410 { Side::Left } else { Side::Right };
+    matches!(tenths, 410 | 420).then_some(G::Radius { side })
 }
 
 /// G54 to G59, by number from 1.

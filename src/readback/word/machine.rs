@@ -167,7 +167,7 @@ impl<'a> Machine<'a> {
             G::ExactPath | G::Blend | G::Smoothing => plan.path = Some(g),
             G::WorkOffset(number) => plan.offset = Some(number),
             G::Compressor => plan.compressor = true,
-            G::RadiusOff => {}
+            G::RadiusOff | G::Radius { .. } => plan.radius = Some(g),
             G::NoEffect(_) => plan.loose = true,
             G::Unfollowed(_) => {
                 plan.unfollowed = true;
@@ -225,8 +225,12 @@ impl<'a> Machine<'a> {
         self.tool(block, plan, out);
         self.spindle(plan.spindle);
         self.dwell(block, plan, used, out);
+        if plan.plane.is_some_and(|plane| plane != self.state.plane) {
+            self.not_compensated("another plane", out);
+        }
         self.state.plane_stated |= plan.plane.is_some();
         self.state.plane = plan.plane.unwrap_or(self.state.plane);
+        self.radius(block, plan, used, out);
         self.tool_length(block, plan, used, out);
         self.offset(block, plan, used, out);
         self.path(block, plan.path, used, out);
@@ -351,6 +355,7 @@ impl<'a> Machine<'a> {
     /// After a change the machine may stand anywhere, and stands still.
     fn change_tool<S: Follow>(&mut self, out: &mut Out<'_, S>) {
         let Some(tool) = self.state.prepared else { return out.fault("M6 without a T word before it") };
+        self.not_compensated("a tool change", out);
         self.state.tool = tool;
         self.state.direction = 0.0;
         self.state.length = false;

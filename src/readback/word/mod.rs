@@ -9,6 +9,7 @@ use super::{Follow, MachineSetup};
 mod arc;
 mod block;
 mod codes;
+mod compensation;
 mod controls;
 mod cubic;
 mod cycle;

@@ -310,6 +310,7 @@ impl Machine<'_> {
         let z = (from[2], target.to[2]);
         let feed = if rapid { None } else { self.path_feed(&path, &from, target) };
         let in_cycle = matches!(self.state.motion, Mode::Cycle(_)) || self.state.in_call;
+        self.compensates(&path, in_cycle, out);
         let known = self.known_before(target);
         let cut = TraceMove {
             path,
@@ -323,6 +324,7 @@ impl Machine<'_> {
             parked: self.state.parked && !target.moved[2],
             length_offset: self.state.length,
             coolant: self.state.coolant,
+            compensation: self.state.radius.on,
             work_offset: self.state.work_offset,
             in_cycle,
             path_tolerance: self.state.path_tolerance,
@@ -371,6 +373,9 @@ impl Machine<'_> {
 
     /// G53: a move in machine coordinates leaves the part's frame.
     fn machine_move<S: Follow>(&mut self, block: &Block, out: &mut Out<'_, S>) {
+        if self.rules.radius_word != super::rules::RadiusWord::Free {
+            self.not_compensated("G53", out);
+        }
         if !matches!(self.state.motion, Mode::Rapid | Mode::Linear) {
             out.fault("G53 without G0 or G1");
         }
@@ -384,6 +389,7 @@ impl Machine<'_> {
     /// G28/G30: over the given point to the machine's reference point.
     fn reference<S: Follow>(&mut self, block: &Block, used: &mut u32, out: &mut Out<'_, S>) {
         *used |= self.axis_words();
+        self.not_compensated("G28", out);
         let target = self.target(block, out);
         if !target.any() && self.rules.reference_needs_axis {
             return out.fault("G28 without an axis word");

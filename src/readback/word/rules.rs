@@ -1,6 +1,7 @@
 //! What tells one word-address control from another, as this reader sees it.
 
 use super::codes::{CycleKind, G, M};
+pub(in crate::readback) use super::compensation::RadiusWord;
 
 /// The frame of a program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -213,6 +214,8 @@ pub(in crate::readback) struct Rules {
     pub length_offset: bool,
     /// Lengths are taken in by D words, D0 leaves them out.
     pub length_by_d: bool,
+    /// Word of the radius for cutter compensation.
+    pub radius_word: RadiusWord,
     /// Word of the length offset that G43 takes in.
     pub length_word: u8,
     /// G43 needs it.

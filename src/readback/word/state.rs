@@ -20,6 +20,7 @@ pub(in crate::readback) struct Plan {
     pub arc_incremental: Option<bool>,
     pub feed: Option<FeedMode>,
     pub length: Option<bool>,
+    pub radius: Option<G>,
     pub path: Option<G>,
     pub compressor: bool,
     pub offset: Option<u16>,
@@ -53,6 +54,7 @@ pub(in crate::readback) struct State {
     /// mm/min, mm/rev or 1/min.
     pub feed: Option<f64>,
     pub length: bool,
+    pub radius: super::compensation::Radius,
     /// mm; infinite when the control may cut corners as it likes.
     pub path_tolerance: f64,
     pub path_stated: bool,
@@ -90,6 +92,7 @@ impl State {
             feed_mode: if rules.feed_modes { None } else { Some(FeedMode::PerMinute) },
             feed: None,
             length: false,
+            radius: super::compensation::Radius::default(),
             path_tolerance: if rules.blends { f64::INFINITY } else { 0.0 },
             path_stated: !rules.blends,
             contour_tolerance: None,

@@ -5,8 +5,9 @@ use super::super::sheet::Sheet;
 use super::super::trial::Trial;
 use super::{Try, row};
 use crate::cl::RecordKind;
-use crate::ir::{Coolant, Spindle};
-use crate::readback::{EventKind, TraceMove};
+use crate::geom::Side;
+use crate::ir::{Compensation, Coolant, Spindle};
+use crate::readback::{Compensated, EventKind, TraceMove};
 
 pub(in super::super) const CHANGE: Try = row(
     "tools",
@@ -42,6 +43,16 @@ pub(in super::super) const COOLANT: Try = row(
         on.add(RecordKind::Coolant(Coolant::Off)).line(20.0, 0.0, 5.0)
     },
     coolant,
+);
+pub(in super::super) const COMPENSATION: Try = row(
+    "tools",
+    "cutter compensation left, then none",
+    || {
+        let on = Compensation { side: Side::Left, register: None };
+        let cut = Sheet::mm().add(RecordKind::Compensation(Some(on))).line(10.0, 0.0, 5.0);
+        cut.add(RecordKind::Compensation(None)).line(10.0, 20.0, 5.0)
+    },
+    compensation,
 );
 pub(in super::super) const STOP: Try = row(
     "tools",
@@ -106,6 +117,18 @@ fn coolant(trial: &Trial) -> Finding {
         [true, false] => Finding::right("on in the first cut, off in the second"),
         [false, false] => Finding::expressed("the control switches no coolant"),
         other => Finding::wrong(format!("flood in the cuts: {other:?}")),
+    }
+}
+
+fn compensation(trial: &Trial) -> Finding {
+    let states: Vec<Option<Compensated>> = trial.cuts().map(|m| m.compensation).collect();
+    match states.as_slice() {
+        [Some(Compensated { side: Side::Left, register }), None] => {
+            let of = register.map_or_else(|| "the tool's own".to_owned(), |n| format!("in register {n}"));
+            Finding::right(format!("left in the first cut, none in the second; the radius is {of}"))
+        }
+        [None, None] => Finding::expressed("the control has none: the path is as the points say"),
+        other => Finding::wrong(format!("compensation in the cuts: {other:?}")),
     }
 }
 

@@ -4,7 +4,9 @@ use super::super::block::letters;
 use super::super::codes::{CycleKind, G, Group, M, Mode};
 use super::super::cubic::Cubic;
 use super::super::iso;
-use super::super::rules::{ArcEnd, Cycles, Dwell, FeedReset, Frame, Language, RotaryFeed, Rules, Unpointed};
+use super::super::rules::{
+    ArcEnd, Cycles, Dwell, FeedReset, Frame, Language, RadiusWord, RotaryFeed, Rules, Unpointed,
+};
 use crate::readback::FeedMode;
 
 pub(in crate::readback::word) const RULES: Rules = Rules {
@@ -40,6 +42,7 @@ pub(in crate::readback::word) const RULES: Rules = Rules {
     tool_change: true,
     length_offset: true,
     length_by_d: false,
+    radius_word: RadiusWord::Needed,
     length_word: b'H',
     length_needs_h: true,
     work_offset: true,
@@ -111,6 +114,7 @@ pub(in crate::readback::word) fn g(tenths: u16) -> Option<G> {
         50 | 51 | 80 => G::NoEffect(Group::Once),
         970 => G::NoEffect(Group::Speed),
         980 | 990 => G::Return { to_r: tenths == 990 },
+        410 | 420 => return iso::radius(tenths),
         _ => return iso::rs274(tenths).or_else(|| iso::cycle(tenths)).or_else(|| unfollowed(tenths)),
     })
 }
@@ -119,7 +123,6 @@ fn unfollowed(tenths: u16) -> Option<G> {
     Some(G::Unfollowed(match tenths {
         24 | 34 | 330 => Group::Motion,
         71 | 90 | 100 | 110 | 270 | 290 | 310 | 520 | 600 | 650 | 920 => Group::Once,
-        410 | 420 => Group::Radius,
         431 | 434 | 435 | 440 => Group::Length,
         620 | 630 => Group::Path,
         870 | 880 => Group::Motion,

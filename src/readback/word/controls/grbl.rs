@@ -3,7 +3,9 @@
 use super::super::codes::{G, Group};
 use super::super::cubic::Cubic;
 use super::super::iso;
-use super::super::rules::{ArcEnd, Dwell, FeedReset, Frame, Language, RotaryFeed, Rules, Unpointed};
+use super::super::rules::{
+    ArcEnd, Dwell, FeedReset, Frame, Language, RadiusWord, RotaryFeed, Rules, Unpointed,
+};
 
 pub(super) const RULES: Rules = Rules {
     name: "grbl",
@@ -38,6 +40,7 @@ pub(super) const RULES: Rules = Rules {
     tool_change: false,
     length_offset: false,
     length_by_d: false,
+    radius_word: RadiusWord::None,
     length_word: b'H',
     length_needs_h: false,
     work_offset: true,

@@ -3,7 +3,9 @@
 use super::super::codes::{CycleKind, G, Group, M, Mode};
 use super::super::cubic::Cubic;
 use super::super::iso;
-use super::super::rules::{ArcEnd, Cycles, Dwell, FeedReset, Frame, Language, RotaryFeed, Rules, Unpointed};
+use super::super::rules::{
+    ArcEnd, Cycles, Dwell, FeedReset, Frame, Language, RadiusWord, RotaryFeed, Rules, Unpointed,
+};
 use crate::readback::FeedMode;
 
 pub(super) const RULES: Rules = Rules {
@@ -48,6 +50,7 @@ pub(super) const RULES: Rules = Rules {
     tool_change: true,
     length_offset: true,
     length_by_d: false,
+    radius_word: RadiusWord::Free,
     length_word: b'H',
     length_needs_h: false,
     work_offset: true,
@@ -123,6 +126,7 @@ pub(super) fn g(tenths: u16) -> Option<G> {
         970 => G::NoEffect(Group::Speed),
         980 | 990 => G::Return { to_r: tenths == 990 },
         80 => G::NoEffect(Group::Other),
+        410 | 420 => return iso::radius(tenths),
         760 => return unfollowed(tenths),
         _ => {
             return iso::rs274(tenths).or_else(|| iso::cycle(tenths)).or_else(|| unfollowed(tenths));
@@ -135,7 +139,7 @@ fn unfollowed(tenths: u16) -> Option<G> {
         50 | 51 | 330 | 331 | 382..=385 | 760 | 870 | 880 => Group::Motion,
         70 => Group::Other,
         100 | 281 | 301 | 520 | 920..=923 => Group::Once,
-        410 | 411 | 420 | 421 => Group::Radius,
+        411 | 421 => Group::Radius,
         431 | 432 => Group::Length,
         171 | 181 | 191 => Group::Plane,
         960 => Group::Speed,

@@ -110,6 +110,7 @@ pub(in crate::readback) const RULES: Rules = Rules {
     tool_change: true,
     length_offset: true,
     length_by_d: true,
+    radius_word: super::rules::RadiusWord::None,
     length_word: b'D',
     feed_reset: FeedReset::Change,
     rotary_feed: RotaryFeed::MillimetresAsDegrees,
@@ -180,6 +181,7 @@ fn g(tenths: u16) -> Option<G> {
         1530 | 10_000 => G::MachineCoordinates,
         540..=570 if tenths.is_multiple_of(10) => G::WorkOffset((tenths - 530) / 10),
         5050..=5990 if tenths.is_multiple_of(10) => G::WorkOffset((tenths - 5000) / 10),
+        410 | 420 => return iso::radius(tenths),
         600 => G::ExactPath,
         6010 | 6020 | 6030 => G::NoEffect(Group::Other),
         640..=645 | 6410 | 6420 | 6430 | 6440 | 6450 => G::Blend,
@@ -202,7 +204,6 @@ fn g(tenths: u16) -> Option<G> {
 fn unfollowed(tenths: u16) -> Option<G> {
     Some(G::Unfollowed(match tenths {
         50 | 70 | 330 | 10_220..=10_221 | 10_231 => Group::Motion,
-        410 | 420 => Group::Radius,
         700 => Group::Units,
         250 | 260 | 740 | 750 | 1100 | 1110 | 1120 => Group::Once,
         960 => Group::Speed,

@@ -1,0 +1,144 @@
+//! Compensation of the cutter's radius by the control: what it is told, and where it may begin and end.
+//!
+//! Controls begin and end it on straight moves in the plane, keep it on lines and arcs of the XY plane, and refuse curves,
+//! drilling cycles, changes of side and turning tables under it. CL data say when it is wanted; the writer says it in the
+//! first straight move in X or Y after that.
+
+use super::emit::Emitter;
+use crate::cl::{Cl, RecordKind};
+use crate::diag::codes::{foreign, lowering};
+use crate::ir::{Compensation, at_origin};
+use crate::target::{BlockKind, Motion, Plane, Register, axes};
+
+/// What of it has been said, and what it waits for.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Compensating {
+    /// What the CL data want from the next move in X or Y on.
+    wanted: Option<Compensation>,
+    /// What is in force.
+    now: Option<Compensation>,
+    /// X, Y and the table where the last move ended.
+    at: [Option<i64>; 3],
+    /// Number of the tool in the spindle.
+    pub tool: Option<u32>,
+    /// It was told that the control has none.
+    told: bool,
+}
+
+/// For each record whether compensation is wanted there; empty where it never is.
+pub(super) fn wanted(cl: &Cl) -> Vec<bool> {
+    let begins = |kind: &RecordKind| matches!(kind, RecordKind::Compensation(Some(_)));
+    if !cl.records.iter().any(|record| begins(&record.kind)) {
+        return Vec::new();
+    }
+    let follow = |on: &mut bool, kind: &RecordKind| {
+        if let RecordKind::Compensation(wanted) = kind {
+            *on = wanted.is_some();
+        }
+        Some(*on)
+    };
+    cl.records.iter().map(|record| &record.kind).scan(false, follow).collect()
+}
+
+impl Emitter<'_> {
+    /// `CUTCOM/`.
+    pub(super) fn compensation(&mut self, wanted: Option<Compensation>) {
+        if wanted.is_some() && !core::mem::replace(&mut self.compensating.told, true) {
+            self.tell_compensation();
+        }
+        let Some(register) = self.capabilities.compensation else { return };
+        if self.compensating.wanted == wanted {
+            return;
+        }
+        if wanted.is_some() && self.compensating.now.is_some_and(|now| Some(now) != wanted) {
+            let help = "write CUTCOM/ OFF and a straight move in X or Y before it";
+            self.not_compensated("changes its side or its register while it is in force", help);
+        }
+        self.compensating.wanted = wanted;
+        let said = wanted
+            .map(|on| Compensation { register: register.said(on.register, self.compensating.tool), ..on });
+        self.event(BlockKind::Compensation(said));
+    }
+
+    /// Once for a program; a post that reads CL data tells it itself.
+    fn tell_compensation(&mut self) {
+        let name = &self.capabilities.name;
+        let (code, message, help) = match self.capabilities.compensation {
+            None => (
+                &foreign::NO_COMPENSATION,
+                format!("`{name}` has no cutter compensation: the path is written as the points say"),
+                foreign::NO_COMPENSATION_HELP,
+            ),
+            Some(_) if self.capabilities.whole_points => return,
+            Some(register) => {
+                let which = match register {
+                    Register::OfTool => "the radius of its tool",
+                    Register::AsNamed | Register::Always => "the radius in its register",
+                };
+                let message =
+                    format!("`{name}` moves this path by {which} where it is not 0: the proof is for 0");
+                (&foreign::COMPENSATED, message, foreign::COMPENSATED_HELP)
+            }
+        };
+        self.complain_of(at_origin(code, &self.cl.origins, self.origin, message).help(help));
+    }
+
+    /// Where the program changes the tool, drills or ends, nothing is compensated.
+    pub(super) fn ends_compensation(&mut self, before: &str) {
+        if self.compensating.wanted.take().is_some() {
+            let help = "write CUTCOM/ OFF before the cutter's way out";
+            self.not_compensated(&format!("is still in force before {before}"), help);
+        }
+        self.compensating.now = None;
+    }
+
+    /// Before a motion is pushed.
+    pub(super) fn compensates(&mut self, motion: &Motion) {
+        let state = self.compensating;
+        let (to, moved) = match motion {
+            Motion::Rapid { to, axes } => (*to, *axes),
+            Motion::Line { to, .. } | Motion::Arc { to, .. } => (*to, axes::X | axes::Y | axes::ROTARY),
+            Motion::Nurbs { .. } => (self.here(), axes::X | axes::Y | axes::ROTARY),
+        };
+        let ends = [(to.x, axes::X), (to.y, axes::Y), (to.r, axes::ROTARY)];
+        let mut goes = [false; 3];
+        for (i, (end, _)) in ends.into_iter().enumerate().filter(|(_, (_, axis))| moved & axis != 0) {
+            goes[i] = state.at[i] != Some(end);
+            self.compensating.at[i] = Some(end);
+        }
+        if state.wanted.is_none() && state.now.is_none() {
+            return;
+        }
+        let [x, y, turns] = goes;
+        match motion {
+            Motion::Arc { .. } if state.wanted != state.now => {
+                let what = if state.wanted.is_some() { "begins" } else { "ends" };
+                let help =
+                    "put a straight move in X or Y, longer than the radius, between CUTCOM and the arc";
+                self.not_compensated(&format!("{what} on an arc"), help);
+            }
+            Motion::Arc { plane: Plane::Zx | Plane::Yz, .. } => {
+                let help = "end it before, or cut the arc by lines";
+                self.not_compensated("is in force on an arc out of the XY plane", help);
+            }
+            Motion::Nurbs { .. } => {
+                let help = "write LINEAR or CIRCUL in place of NURBS";
+                self.not_compensated("is in force on a curve", help);
+            }
+            _ if turns && state.at[2].is_some() => {
+                let help = "end it before the table turns";
+                self.not_compensated("is in force while the table turns", help);
+            }
+            _ => {}
+        }
+        if x || y || matches!(motion, Motion::Arc { .. } | Motion::Nurbs { .. }) {
+            self.compensating.now = state.wanted;
+        }
+    }
+
+    fn not_compensated(&mut self, how: &str, help: &str) {
+        let message = format!("cutter compensation {how}, which no control carries out as it is meant");
+        let code = &lowering::COMPENSATION;
+        self.complain_of(at_origin(code, &self.cl.origins, self.origin, message).help(help));
+    }
+}
