@@ -2,14 +2,22 @@
 
 mod common;
 
-use partwright::post::{builtin_names, load};
-use partwright::selftest::{Matrix, Row, Verdict, print, run};
+use partwright::post::{Dialect, builtin_names, load};
+use partwright::selftest::{Matrix, Row, Verdict, findings, print, run};
 use partwright::source::{MemoryFiles, SourceMap};
+use partwright::units::LengthUnit;
+
+fn dialect(name: &str, text: &str) -> Dialect {
+    let files = MemoryFiles([(name.to_owned(), text.to_owned())].into());
+    load(name, &files, &mut SourceMap::default()).unwrap_or_else(|e| panic!("{name}: {e:#?}"))
+}
 
 fn matrix(name: &str, text: &str) -> Matrix {
-    let files = MemoryFiles([(name.to_owned(), text.to_owned())].into());
-    let dialect = load(name, &files, &mut SourceMap::default()).unwrap_or_else(|e| panic!("{name}: {e:#?}"));
-    run(&dialect)
+    run(&dialect(name, text), LengthUnit::Millimetre)
+}
+
+fn in_inches(name: &str, text: &str) -> Matrix {
+    run(&dialect(name, text), LengthUnit::Inch)
 }
 
 /// Rows that are wrong.
@@ -20,9 +28,22 @@ fn wrong(matrix: &Matrix) -> Vec<&'static str> {
 #[test]
 fn no_row_of_a_built_in_post_is_wrong() {
     for name in builtin_names() {
-        let matrix = matrix(name, "");
-        assert!(matrix.passed(), "{name}: {:?}\n{}", wrong(&matrix), print::text(&matrix));
+        for matrix in [matrix(name, ""), in_inches(name, "")] {
+            let units = matrix.units;
+            assert!(matrix.passed(), "{name}, {units}: {:?}\n{}", wrong(&matrix), print::text(&matrix));
+        }
     }
+}
+
+/// A mistake that only programs in inches have.
+#[test]
+fn what_is_wrong_in_inches_alone_is_found() {
+    let text = "inherits = \"fanuc\"\n[feed]\nscale = { mm = 1, inch = 10 }\n";
+    assert!(wrong(&matrix("my.post.toml", text)) == ["10 inch a minute in an inch program"]);
+    let found = wrong(&in_inches("my.post.toml", text));
+    assert!(found.contains(&"per minute, per revolution, per minute again"), "{found:?}");
+    let told = findings(&dialect("my.post.toml", text), "my.post.toml");
+    assert!(told.iter().any(|d| d.message.contains("comes out wrong in inches")), "{told:#?}");
 }
 
 /// Rows that do not apply to a post, with the reason that the matrix gives.
@@ -55,6 +76,11 @@ const FACTS: &[(&str, &str, &str)] = &[
     ("fanuc", "0.5 s in a block of its own", "G4 P500"),
     ("linuxcnc", "0.5 s in a block of its own", "G4 P0.5"),
     ("grbl", "12.25 s in a block of its own", "G4 P12.25"),
+    ("fanuc", "cutter compensation left, then none", "G1 G41 D1 X10. F300."),
+    ("okuma", "cutter compensation left, then none", "G40 Y20."),
+    ("sinumerik", "cutter compensation left, then none", "G1 G41 X10 F300"),
+    ("heidenhain", "cutter compensation left, then none", "7 L X+10 RL F300"),
+    ("apt-cl", "cutter compensation left, then none", "CUTCOM/LEFT"),
     ("fanuc", "full circle", "G3 I-10. J0."),
     ("linuxcnc", "full circle", "G3 I-10 J0"),
     ("grbl", "full circle", "G3 X10 I-10 J0"),

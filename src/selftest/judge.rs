@@ -6,6 +6,7 @@ use super::{RestsOn, Row, Verdict};
 use crate::diag::codes::{lowering, post as post_codes};
 use crate::diag::{Code, Severity};
 use crate::post::Dialect;
+use crate::units::LengthUnit;
 
 /// Codes with which a post may refuse what its control cannot do.
 const REFUSALS: &[&Code] =
@@ -38,9 +39,13 @@ impl Finding {
     }
 }
 
-/// Tries and judges a row.
-pub(super) fn row(row: &Try, dialect: &Dialect) -> Row {
-    let sheet = (row.program)();
+/// Tries and judges a row in a program of this unit.
+pub(super) fn row(row: &Try, dialect: &Dialect, units: LengthUnit) -> Row {
+    let mut sheet = (row.program)();
+    if units == LengthUnit::Inch {
+        // Lengths of CL data are mm whatever the program's unit.
+        sheet.cl.units = units;
+    }
     if sheet.rotary && !dialect.spec().rotary.enabled.of(sheet.cl.units) {
         return finished(
             row,

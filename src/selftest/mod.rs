@@ -4,10 +4,13 @@
 //! interpreter of its control and proven like any other ([`trial`]), then judged by what the machine did or by how it is
 //! spelled ([`judge`]). A row never judges by the post's data: a wrong word in a post is a wrong row.
 
+use std::collections::BTreeSet;
+
 use serde::Serialize;
 
 use crate::diag::{Diagnostic, codes};
 use crate::post::Dialect;
+use crate::units::LengthUnit;
 
 mod judge;
 pub mod print;
@@ -16,7 +19,7 @@ mod sheet;
 mod trial;
 
 /// Version of the JSON form; minor steps only add members.
-pub const VERSION: &str = "1.0";
+pub const VERSION: &str = "1.1";
 
 /// What a post makes of every row.
 #[derive(Debug, Serialize)]
@@ -35,6 +38,8 @@ pub struct Matrix {
     pub confidence: String,
     /// What they rest on.
     pub basis: String,
+    /// Unit of the programs: `mm` or `inch`.
+    pub units: &'static str,
     /// The rows in order.
     pub rows: Vec<Row>,
 }
@@ -96,9 +101,21 @@ pub enum RestsOn {
 /// has it and how many do.
 #[must_use]
 pub fn findings(dialect: &Dialect, name: &str) -> Vec<Diagnostic> {
-    let matrix = run(dialect);
+    let metric = run(dialect, LengthUnit::Millimetre);
+    let inches = run(dialect, LengthUnit::Inch);
+    let wrong = |row: &&Row| row.verdict == Verdict::Wrong;
+    let known: BTreeSet<&str> = metric.rows.iter().filter(wrong).map(|row| row.title).collect();
+    // What is wrong in both is told for mm.
+    let in_inches = inches.rows.iter().filter(wrong).filter(|row| !known.contains(row.title));
+    let mut findings = told(metric.rows.iter().filter(wrong), "", name);
+    findings.extend(told(in_inches, " in inches", &format!("{name} --inch")));
+    findings
+}
+
+/// The faults of rows, each once; `units` and `command` are for the message.
+fn told<'a>(rows: impl Iterator<Item = &'a Row>, units: &str, command: &str) -> Vec<Diagnostic> {
     let mut found: Vec<(&str, &str, u32)> = Vec::new();
-    for row in matrix.rows.iter().filter(|row| row.verdict == Verdict::Wrong) {
+    for row in rows {
         for fault in faults(&row.remark) {
             match found.iter_mut().find(|(known, ..)| *known == fault) {
                 Some((_, _, rows)) => *rows += 1,
@@ -112,9 +129,9 @@ pub fn findings(dialect: &Dialect, name: &str) -> Vec<Diagnostic> {
             1 => ", and so does another".to_owned(),
             n => format!(", and so do {n} others"),
         };
-        let message = format!("the row `{title}` of the selftest comes out wrong{more}: {fault}");
+        let message = format!("the row `{title}` of the selftest comes out wrong{units}{more}: {fault}");
         Diagnostic::global(&codes::tools::INEXPRESSIBLE, message)
-            .help(format!("`partwright post selftest {name}` shows its lines"))
+            .help(format!("`partwright post selftest {command}` shows its lines"))
     };
     found.into_iter().map(finding).collect()
 }
@@ -130,14 +147,14 @@ fn faults(remark: &str) -> Vec<&str> {
         _ => part,
     };
     let mut faults: Vec<&str> = remark.split("; ").filter(|p| coded(p)).map(without_line).collect();
-    let mut known = std::collections::BTreeSet::new();
+    let mut known = BTreeSet::new();
     faults.retain(|fault| known.insert(*fault));
     faults
 }
 
-/// Tries every row.
+/// Tries every row, in programs of this unit; a row about inches is in inches always.
 #[must_use]
-pub fn run(dialect: &Dialect) -> Matrix {
+pub fn run(dialect: &Dialect, units: LengthUnit) -> Matrix {
     Matrix {
         schema: "partwright-selftest",
         version: VERSION,
@@ -146,6 +163,10 @@ pub fn run(dialect: &Dialect) -> Matrix {
         control: dialect.control().to_owned(),
         confidence: dialect.confidence().to_owned(),
         basis: dialect.basis().to_owned(),
-        rows: rows::ROWS.iter().map(|row| judge::row(row, dialect)).collect(),
+        units: match units {
+            LengthUnit::Millimetre => "mm",
+            LengthUnit::Inch => "inch",
+        },
+        rows: rows::ROWS.iter().map(|row| judge::row(row, dialect, units)).collect(),
     }
 }

@@ -14,6 +14,9 @@ pub fn text(matrix: &Matrix) -> String {
         "{}: {}\nread back as {}; facts of the post: {} ({})\n",
         matrix.post, matrix.title, matrix.control, matrix.confidence, matrix.basis
     );
+    if matrix.units == "inch" {
+        out += "programs in inches\n";
+    }
     let mut area = "";
     for row in &matrix.rows {
         if row.area != area {

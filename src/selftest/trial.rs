@@ -5,9 +5,12 @@ use crate::diag::{Diagnostic, Severity, Sink};
 use crate::ir::{Machine, Rotary};
 use crate::lower;
 use crate::post::{self, Dialect};
-use crate::readback::{self, EventKind, MachineSetup, Trace, TraceEvent, TraceMove};
-use crate::target::TargetProgram;
+use crate::readback::{self, EventKind, FeedMode, MachineSetup, Trace, TraceEvent, TraceMove};
+use crate::target::{Grid, TargetProgram, power_of_ten};
 use crate::verify::{self, Emitted};
+
+/// What the arithmetic of the reader may add to the rounding of printed numbers.
+const ROUNDING: f64 = 1e-6;
 
 /// What came of a program.
 pub(super) struct Trial {
@@ -23,6 +26,30 @@ pub(super) struct Trial {
     pub proven: bool,
     /// All messages.
     pub messages: Vec<Diagnostic>,
+    /// What numbers are rounded to.
+    steps: Steps,
+}
+
+/// Half a step of printed numbers.
+#[derive(Debug, Clone, Copy, Default)]
+struct Steps {
+    /// Of a linear axis, mm.
+    linear: f64,
+    /// Of a feed per minute, mm/min.
+    feed: f64,
+    /// Of a feed per revolution, mm.
+    per_revolution: f64,
+}
+
+impl Steps {
+    fn of(grid: &Grid) -> Steps {
+        let half = |decimals: u8| 0.5 * grid.unit.in_mm() / power_of_ten(decimals);
+        Steps {
+            linear: 0.5 * grid.linear_step(),
+            feed: half(grid.feed_decimals) / grid.feed_scale,
+            per_revolution: half(grid.feed_per_revolution_decimals),
+        }
+    }
 }
 
 impl Trial {
@@ -38,6 +65,7 @@ impl Trial {
                 cl_data: false,
                 proven: false,
                 messages: sink.into_items(),
+                steps: Steps::default(),
             };
         };
         let control = dialect.control_with(&target.capabilities.options);
@@ -47,9 +75,22 @@ impl Trial {
         let watched = watched_lines(&target, &emitted, sheet.watched);
         let proven = verify::prove(&sheet.cl, &target, emitted, control, &mut sink).is_some();
         let cl_data = target.capabilities.whole_points;
-        Trial { text, watched, trace, cl_data, proven, messages: sink.into_items() }
+        let steps = Steps::of(&target.capabilities.grid);
+        Trial { text, watched, trace, cl_data, proven, messages: sink.into_items(), steps }
     }
 
+    /// Whether a length is the one that was asked for, mm, as far as printed numbers tell.
+    pub fn is_at(&self, got: f64, wanted: f64) -> bool {
+        (got - wanted).abs() <= self.steps.linear + ROUNDING
+    }
+    /// The same for the feed of a move, mm/min.
+    pub fn feeds_at(&self, cut: &TraceMove, wanted: f64) -> bool {
+        let step = match cut.feed_mode {
+            FeedMode::PerRevolution => self.steps.per_revolution * cut.spindle.abs(),
+            FeedMode::PerMinute | FeedMode::InverseTime => self.steps.feed,
+        };
+        cut.feed.is_some_and(|feed| (feed - wanted).abs() <= step + ROUNDING * wanted)
+    }
     /// The watched lines.
     pub fn lines(&self) -> Vec<String> {
         let line = |n: &u32| self.text.get((*n as usize).checked_sub(1)?).cloned();

@@ -126,6 +126,9 @@ pub struct PostSelftestArgs {
     /// A built-in post or a file NAME.post.toml.
     #[arg(value_name = "NAME|FILE")]
     pub post: String,
+    /// Try the rows in programs in inches.
+    #[arg(long)]
+    pub inch: bool,
     /// How to print.
     #[arg(long, value_enum, default_value_t = TextOrJson::Text, value_name = "FORMAT")]
     pub format: TextOrJson,

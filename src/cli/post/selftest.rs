@@ -5,6 +5,7 @@ use super::super::messages::Messages;
 use super::super::{Status, print};
 use crate::diag::Diagnostic;
 use crate::selftest;
+use crate::units::LengthUnit;
 
 /// Tries a post on every row and prints the matrix.
 pub fn selftest(args: &PostSelftestArgs, messages: Messages) -> Result<Status, Diagnostic> {
@@ -13,7 +14,8 @@ pub fn selftest(args: &PostSelftestArgs, messages: Messages) -> Result<Status, D
         Ok(loaded) => loaded,
         Err(status) => return Ok(status),
     };
-    let matrix = selftest::run(&dialect);
+    let units = if args.inch { LengthUnit::Inch } else { LengthUnit::Millimetre };
+    let matrix = selftest::run(&dialect, units);
     print(&match args.format {
         TextOrJson::Json => serde_json::to_string_pretty(&matrix).unwrap_or_default() + "\n",
         TextOrJson::Text => selftest::print::text(&matrix),

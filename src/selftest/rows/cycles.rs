@@ -47,7 +47,7 @@ fn levels(trial: &Trial, between: f64) -> Finding {
     let deepest = trial.moves().map(|m| m.z.0.min(m.z.1)).fold(f64::INFINITY, f64::min);
     let travel = trial.moves().find(|m| m.start().x > 1.0 && (m.end().x - m.start().x).abs() > 1.0);
     let level = travel.map(|m| m.z.0);
-    if (deepest + 6.0).abs() > 0.001 || !level.is_some_and(|z| (z - between).abs() <= 0.001) {
+    if !trial.is_at(deepest, -6.0) || !level.is_some_and(|z| trial.is_at(z, between)) {
         return Finding::wrong(format!(
             "drills to Z{} and travels at {level:?} instead of -6 and {between}",
             number(deepest)

@@ -49,10 +49,9 @@ fn feeds(trial: &Trial) -> Vec<f64> {
 
 fn modes(trial: &Trial) -> Finding {
     let feeds = feeds(trial);
-    let near = |a: f64, b: f64| (a - b).abs() <= 1e-6 * b;
-    let right =
-        matches!(feeds.as_slice(), [a, b, c] if near(*a, 300.0) && near(*b, 200.0) && near(*c, 300.0));
-    if !right {
+    let wanted = [300.0, 200.0, 300.0];
+    let right = trial.cuts().zip(wanted).all(|(cut, feed)| trial.feeds_at(cut, feed));
+    if !right || feeds.len() != wanted.len() {
         return Finding::wrong(format!("feeds are {feeds:?} mm/min instead of 300, 200 and 300"));
     }
     if trial.cuts().any(|m| m.feed_mode == FeedMode::PerRevolution) {
@@ -64,7 +63,9 @@ fn modes(trial: &Trial) -> Finding {
 
 fn inch(trial: &Trial) -> Finding {
     match feeds(trial).as_slice() {
-        [only] if (only - 254.0).abs() < 0.01 => Finding::right(format!("{} mm/min", number(*only))),
+        [only] if trial.cuts().all(|cut| trial.feeds_at(cut, 254.0)) => {
+            Finding::right(format!("{} mm/min", number(*only)))
+        }
         other => Finding::wrong(format!("feeds are {other:?} mm/min instead of 254")),
     }
 }

@@ -60,7 +60,7 @@ fn smoothing(trial: &Trial) -> Finding {
 }
 
 fn levels(trial: &Trial) -> Finding {
-    let at = |z: f64| trial.cuts().any(|m| (m.z.0 - z).abs() < 1e-6 && (m.z.1 - z).abs() < 1e-6);
+    let at = |z: f64| trial.cuts().any(|m| trial.is_at(m.z.0, z) && trial.is_at(m.z.1, z));
     if at(-1.0) && at(-2.0) {
         Finding::right("cut at both depths, without a subprogram")
     } else {
