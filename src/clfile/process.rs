@@ -292,10 +292,11 @@ impl Reader<'_> {
             return self.end_compensation();
         }
         let last = self.state.last_compensation;
-        let side = match () {
-            () if s.has("LEFT") => Some(Side::Left),
-            () if s.has("RIGHT") => Some(Side::Right),
-            () => last.map(|last| last.side),
+        // A side begins anew, and `ON` goes on as before.
+        let (side, before) = match () {
+            () if s.has("LEFT") => (Some(Side::Left), None),
+            () if s.has("RIGHT") => (Some(Side::Right), None),
+            () => (last.map(|last| last.side), last.and_then(|last| last.register)),
         };
         let named = s.after("ADJUST").or_else(|| s.after("OSETNO")).or_else(|| s.numbers().first().copied());
         if let Some(bad) = named.filter(|n| n.fract() != 0.0 || !(0.0..1e8).contains(n)) {
@@ -305,7 +306,7 @@ impl Reader<'_> {
             let message = "CUTCOM/ ON goes on with the side that was in force, and there was none";
             return self.complain(&codes::BAD_RECORD, message.to_owned());
         };
-        let register = named.map(|n| n as u32).or(last.and_then(|last| last.register));
+        let register = named.map(|n| n as u32).or(before);
         self.compensate(Compensation { side, register });
     }
 

@@ -19,7 +19,7 @@ use crate::verify::stream::{self, Stream as Proof};
 use crate::verify::{Emitted, OperationProof, Proven};
 
 /// Records of one part.
-const PART: usize = 1 << 14;
+const PART: usize = 1 << 12;
 /// Parts that writing may be ahead of the proof.
 const AHEAD: usize = 2;
 

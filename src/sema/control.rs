@@ -18,10 +18,12 @@ impl Analyser<'_> {
         if m.form != "on" {
             return self.step(StepKind::Compensation(None));
         }
-        let side = match m.word("side") {
-            Some("LEFT") => Some(Side::Left),
-            Some("RIGHT") => Some(Side::Right),
-            _ => self.state.last_compensation.map(|last| last.side),
+        let last = self.state.last_compensation;
+        // A side begins anew, and `ON` goes on as before.
+        let (side, before) = match m.word("side") {
+            Some("LEFT") => (Some(Side::Left), None),
+            Some("RIGHT") => (Some(Side::Right), None),
+            _ => (last.map(|last| last.side), last.and_then(|last| last.register)),
         };
         let Some(side) = side else {
             let message = "CUTCOM/ ON goes on with the side that was in force, and there was none";
@@ -33,7 +35,7 @@ impl Analyser<'_> {
             return self.report(Diagnostic::new(&foreign::NOT_CARRIED_OUT, m.word, message));
         }
         let named = m.number("register").map(|n| n as u32);
-        let register = named.or(self.state.last_compensation.and_then(|last| last.register));
+        let register = named.or(before);
         self.state.last_compensation = Some(Compensation { side, register });
         // The image of a path that is mirrored has the cutter on its other side.
         let mirrored = self.state.transform.as_ref().is_some_and(|(map, _)| map.mirrors_plan());

@@ -101,22 +101,28 @@ pub(super) fn written(cl: &Cl) -> Vec<Handle<Origin>> {
 
 /// The block of every line: lines are given block by block, in order.
 pub(super) struct Lines {
-    ranges: Vec<(u32, u32, usize)>,
+    first: u32,
+    /// Block of each line from `first` on, plus one; 0 where none has printed it.
+    blocks: Vec<u32>,
 }
 
 impl Lines {
     pub(super) fn new(lines: &[(u32, u32)]) -> Self {
-        let mut ranges: Vec<(u32, u32, usize)> =
-            lines.iter().enumerate().filter(|(_, (a, b))| b > a).map(|(i, &(a, b))| (a, b, i)).collect();
-        ranges.sort_unstable();
-        Lines { ranges }
+        let printed = || lines.iter().filter(|(from, to)| to > from);
+        let first = printed().map(|(from, _)| *from).min().unwrap_or(0);
+        let after = printed().map(|(_, to)| *to).max().unwrap_or(0);
+        let mut blocks = vec![0; (after - first) as usize];
+        for (number, &(from, to)) in (1..).zip(lines).filter(|(_, (from, to))| to > from) {
+            let own = blocks.get_mut((from - first) as usize..(to - first) as usize);
+            own.into_iter().flatten().for_each(|block| *block = number);
+        }
+        Lines { first, blocks }
     }
 
     /// Index of the block that printed `line`.
     pub(super) fn block(&self, line: u32) -> Option<usize> {
-        let after = self.ranges.partition_point(|&(from, _, _)| from <= line);
-        let &(_, to, block) = self.ranges.get(after.checked_sub(1)?)?;
-        (line < to).then_some(block)
+        let number = *self.blocks.get(line.checked_sub(self.first)? as usize)?;
+        (number as usize).checked_sub(1)
     }
 }
 

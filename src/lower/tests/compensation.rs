@@ -4,7 +4,7 @@ use super::cl::{Draft, plate};
 use super::{dialect, lowered, made};
 use crate::cl::{Circle, Cycle, CycleKind, Lead, RecordKind, RetractTo};
 use crate::geom::{Point3, Side, Vec3};
-use crate::ir::{Compensation, Feed, Interpolation};
+use crate::ir::{Compensation, Feed, Interpolation, Spindle};
 
 fn on(side: Side, register: Option<u32>) -> RecordKind {
     RecordKind::Compensation(Some(Compensation { side, register }))
@@ -30,6 +30,19 @@ fn arc(draft: Draft, x: f64) -> Draft {
         tolerance: 0.01,
     };
     draft.add(RecordKind::Circle(Box::new(circle)))
+}
+
+fn drilling() -> Cycle {
+    Cycle {
+        kind: CycleKind::Drill,
+        depth: 5.0,
+        clearance: 2.0,
+        retract: RetractTo::Clearance,
+        peck: None,
+        first_peck: None,
+        dwell: None,
+        feed: Feed::PerMinute(100.0),
+    }
 }
 
 fn lines<'t>(text: &'t str, from: &str, count: usize) -> Vec<&'t str> {
@@ -69,6 +82,23 @@ fn what_no_move_ends_ends_alone() {
 }
 
 #[test]
+fn after_it_has_ended_alone_anything_may_come() {
+    let draft = start().add(left()).linear(10.0, 0.0, -1.0).add(OFF).rapid(10.0, 0.0, 5.0);
+    let tool = draft.cl.tools.iter().map(|(handle, _)| handle).next().unwrap();
+    let changed = || start().add(left()).linear(10.0, 0.0, -1.0).add(OFF).rapid(10.0, 0.0, 5.0);
+    let changed =
+        changed().add(RecordKind::LoadTool(tool)).add(RecordKind::Spindle(Spindle::on(900.0, true)));
+    let drilled = draft.add(RecordKind::BeginCycle(Box::new(drilling())));
+    let drilled = drilled.add(RecordKind::Hole(Point3::new(0.0, 0.0, 0.0))).add(RecordKind::EndCycle);
+    for draft in [changed.rapid(0.0, 0.0, 5.0), drilled.rapid(0.0, 0.0, 5.0)] {
+        let draft = arc(draft.linear(0.0, 0.0, -1.0), 10.0);
+        for post in ["fanuc", "heidenhain", "sinumerik", "okuma"] {
+            made(&draft.cl, post, None);
+        }
+    }
+}
+
+#[test]
 fn compensation_that_goes_on_is_not_said_twice() {
     let draft = start().add(left()).linear(10.0, 0.0, -1.0).add(OFF).add(left()).linear(20.0, 0.0, -1.0);
     let draft = draft.add(left()).linear(30.0, 0.0, -1.0).add(OFF).linear(30.0, 9.0, -1.0);
@@ -95,16 +125,6 @@ fn fits_under_compensation_are_no_curves() {
 
 #[test]
 fn what_controls_do_not_carry_out_is_refused() {
-    let cycle = Cycle {
-        kind: CycleKind::Drill,
-        depth: 5.0,
-        clearance: 2.0,
-        retract: RetractTo::Clearance,
-        peck: None,
-        first_peck: None,
-        dwell: None,
-        feed: Feed::PerMinute(100.0),
-    };
     let tool = start().cl.tools.iter().map(|(handle, _)| handle).next().unwrap();
     let compensated = || start().add(left()).linear(10.0, 0.0, -1.0);
     for (words, draft) in [
@@ -114,7 +134,7 @@ fn what_controls_do_not_carry_out_is_refused() {
         ("changes its side or its register", compensated().add(OFF).add(on(Side::Left, Some(4)))),
         ("before the end", compensated()),
         ("before a tool change", compensated().add(RecordKind::LoadTool(tool)).rapid(0.0, 0.0, 5.0)),
-        ("before a drilling cycle", compensated().add(RecordKind::BeginCycle(Box::new(cycle)))),
+        ("before a drilling cycle", compensated().add(RecordKind::BeginCycle(Box::new(drilling())))),
     ] {
         let draft = draft.linear(40.0, 10.0, -1.0);
         let (target, messages) = lowered(&draft.cl, &dialect("fanuc", None), None);

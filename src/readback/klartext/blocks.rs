@@ -274,6 +274,7 @@ impl Reader<'_> {
         if self.state.compensation.is_some() {
             out.fault("a tool call under radius compensation");
         }
+        self.state.compensation_due = false;
         self.state.tool = tool;
         self.state.direction = 0.0;
         self.state.known = [false, false, false, self.state.known[3]];

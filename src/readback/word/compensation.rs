@@ -92,6 +92,11 @@ impl Machine<'_> {
         }
     }
 
+    /// Where the position is lost nothing is left to end.
+    pub(super) fn forget_compensation(&mut self) {
+        self.state.radius.due = false;
+    }
+
     /// What a move may not be while the compensation begins, is in force or ends.
     pub(super) fn compensates<S: Follow>(&mut self, path: &TracePath, in_cycle: bool, out: &mut Out<'_, S>) {
         let radius = &mut self.state.radius;
@@ -101,7 +106,9 @@ impl Machine<'_> {
         let due = radius.due;
         match path {
             TracePath::Line { from, to } if !in_cycle => radius.due &= from == to,
-            _ if in_cycle => out.fault("a drilling cycle under cutter compensation"),
+            _ if in_cycle && radius.on.is_some() => out.fault("a drilling cycle under cutter compensation"),
+            // The way to a hole is straight.
+            _ if in_cycle => radius.due = false,
             TracePath::Arc { .. } if due => {
                 radius.due = false;
                 if self.rules.radius_word != RadiusWord::Free {

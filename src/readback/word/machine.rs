@@ -356,6 +356,7 @@ impl<'a> Machine<'a> {
     fn change_tool<S: Follow>(&mut self, out: &mut Out<'_, S>) {
         let Some(tool) = self.state.prepared else { return out.fault("M6 without a T word before it") };
         self.not_compensated("a tool change", out);
+        self.forget_compensation();
         self.state.tool = tool;
         self.state.direction = 0.0;
         self.state.length = false;

@@ -405,6 +405,7 @@ impl Machine<'_> {
     }
 
     fn forget(&mut self, target: &Target) {
+        self.forget_compensation();
         for axis in 0..4 {
             self.state.known[axis] &= !target.moved[axis];
         }
