@@ -332,7 +332,9 @@ impl<'t> Reader<'t> {
             Some(Class::Matters(_)) if words::already_so(word, &s.words().collect::<Vec<_>>()) => {}
             Some(Class::Matters(why)) => {
                 let message = format!("{word} cannot be carried out: {why}");
-                self.soften(&codes::NOT_CARRIED_OUT, message, None);
+                let place = words::PLACES.contains(&word);
+                let help = place.then(|| "without it what follows is cut where its points stand".to_owned());
+                self.soften(&codes::NOT_CARRIED_OUT, message, help);
             }
             None => {
                 let short: String = word.chars().take(SHOWN).collect();

@@ -124,6 +124,10 @@ const MATTERS: &[(&str, &str)] = &[
     ("GODOWN", "it follows surfaces that are not there"),
 ];
 
+/// Those of them without which what follows is cut in another place.
+pub(super) const PLACES: &[&str] =
+    &["ZERO", "ORIGIN", "TRANS", "TRACUT", "COPY", "INDEX", "ROTABL", "ROTHED", "ROTATE", "POSTN"];
+
 /// The class of a word; `None`: nobody knows it.
 pub(super) fn class(word: &str) -> Option<Class> {
     if HARMLESS.contains(&word) || word.starts_with("CSI_SET") {
