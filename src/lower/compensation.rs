@@ -1,12 +1,13 @@
 //! Compensation of the cutter's radius by the control: what it is told, and where it may begin and end.
 //!
 //! Controls begin and end it on straight moves in the plane, keep it on lines and arcs of the XY plane, and refuse curves,
-//! drilling cycles, changes of side and turning tables under it. CL data say when it is wanted; the writer says it in the
-//! first straight move in X or Y after that.
+//! drilling cycles, changes of side and turning tables under it. CL data say when it is wanted; it is said right before the
+//! first straight move in X or Y after that, or before the straight lead of a contour, at its depth.
 
 use super::emit::Emitter;
-use crate::cl::{Cl, RecordKind};
+use crate::cl::{Cl, Contour, Lead, RecordKind};
 use crate::diag::codes::{foreign, lowering};
+use crate::geom::Side;
 use crate::ir::{Compensation, at_origin};
 use crate::target::{BlockKind, Motion, Plane, Register, axes};
 
@@ -17,6 +18,8 @@ pub(super) struct Compensating {
     wanted: Option<Compensation>,
     /// What is in force.
     now: Option<Compensation>,
+    /// It is to begin on a lead, not on the way there.
+    pub held: bool,
     /// X, Y and the table where the last move ended.
     at: [Option<i64>; 3],
     /// Number of the tool in the spindle.
@@ -46,8 +49,7 @@ impl Emitter<'_> {
         if wanted.is_some() && !core::mem::replace(&mut self.compensating.told, true) {
             self.tell_compensation();
         }
-        let Some(register) = self.capabilities.compensation else { return };
-        if self.compensating.wanted == wanted {
+        if self.capabilities.compensation.is_none() || self.compensating.wanted == wanted {
             return;
         }
         if wanted.is_some() && self.compensating.now.is_some_and(|now| Some(now) != wanted) {
@@ -55,8 +57,18 @@ impl Emitter<'_> {
             self.not_compensated("changes its side or its register while it is in force", help);
         }
         self.compensating.wanted = wanted;
-        let said = wanted
-            .map(|on| Compensation { register: register.said(on.register, self.compensating.tool), ..on });
+        // A post that reads CL data waits itself.
+        if self.capabilities.whole_points {
+            self.say_compensation();
+        }
+    }
+
+    /// What is wanted comes into force.
+    fn say_compensation(&mut self) {
+        let Some(register) = self.capabilities.compensation else { return };
+        let Compensating { wanted, tool, .. } = self.compensating;
+        let said = wanted.map(|on| Compensation { register: register.said(on.register, tool), ..on });
+        self.compensating.now = wanted;
         self.event(BlockKind::Compensation(said));
     }
 
@@ -89,7 +101,9 @@ impl Emitter<'_> {
             let help = "write CUTCOM/ OFF before the cutter's way out";
             self.not_compensated(&format!("is still in force before {before}"), help);
         }
-        self.compensating.now = None;
+        if self.compensating.now.is_some() {
+            self.say_compensation();
+        }
     }
 
     /// Before a motion is pushed.
@@ -111,7 +125,7 @@ impl Emitter<'_> {
         }
         let [x, y, turns] = goes;
         match motion {
-            Motion::Arc { .. } if state.wanted != state.now => {
+            Motion::Arc { .. } if state.wanted != state.now && !state.held => {
                 let what = if state.wanted.is_some() { "begins" } else { "ends" };
                 let help =
                     "put a straight move in X or Y, longer than the radius, between CUTCOM and the arc";
@@ -131,9 +145,28 @@ impl Emitter<'_> {
             }
             _ => {}
         }
-        if x || y || matches!(motion, Motion::Arc { .. } | Motion::Nurbs { .. }) {
-            self.compensating.now = state.wanted;
+        let moves = x || y || matches!(motion, Motion::Arc { .. } | Motion::Nurbs { .. });
+        if moves && state.wanted != state.now && !state.held {
+            self.say_compensation();
         }
+    }
+
+    /// A radius above 0 moves the cutter off the part, never into it.
+    pub(super) fn compensates_beside(&mut self, contour: &Contour) {
+        let side = self.compensating.wanted.map(|on| on.side);
+        if contour.entry == Lead::None || side != Some(contour.part) {
+            return;
+        }
+        let (side, other) = match contour.part {
+            Side::Left => ("left", "RIGHT"),
+            Side::Right => ("right", "LEFT"),
+        };
+        let message = format!(
+            "cutter compensation to the {side} moves the cutter into the part, which lies {side} of this cut"
+        );
+        let help = format!("write CUTCOM/ {other}, or cut the other way round");
+        let code = &lowering::COMPENSATION;
+        self.complain_of(at_origin(code, &self.cl.origins, self.origin, message).help(help));
     }
 
     fn not_compensated(&mut self, how: &str, help: &str) {

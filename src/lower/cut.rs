@@ -35,7 +35,9 @@ impl Emitter<'_> {
             let feed = self.linear_feed();
             self.line(above, feed);
         } else {
+            self.compensating.held = entry.as_ref().is_some_and(|lead| lead.arc.is_none());
             self.descend(contour, above);
+            self.compensating.held = false;
         }
         let feed = self.linear_feed();
         if let Some(entry) = entry {

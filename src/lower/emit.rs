@@ -353,6 +353,7 @@ impl<'a> Emitter<'a> {
             RecordKind::Hole(point) => self.hole(*point),
             RecordKind::EndCycle => self.end_cycle(),
             RecordKind::Contour(contour) => {
+                self.compensates_beside(contour);
                 if let Some(Some(fitted)) = fitted.get(index) {
                     self.contour(contour, fitted);
                     let step = self.capabilities.grid.linear_step();

@@ -432,8 +432,8 @@ pub enum BlockKind {
     Spindle(Spindle),
     /// Coolant.
     Coolant(Coolant),
-    /// Compensation of the cutter's radius, with the register that the block names, from the next straight move in X or Y
-    /// on; `None` ends it there.
+    /// Compensation of the cutter's radius, with the register that the block names, from the straight move in X or Y on that
+    /// comes next; `None` ends it there.
     Compensation(Option<Compensation>),
     /// Dwell, seconds.
     Dwell(f64),

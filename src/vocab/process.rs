@@ -221,7 +221,7 @@ const CUTCOM: &[Form] = &[
     form("off", "switches it off", &[Item::Word("state", &[word("OFF", "none, G40")])], &[]),
     form(
         "on",
-        "from the next straight move in X or Y on the control moves the path by what its register holds; it ends on a straight move, too",
+        "from the next straight move in X or Y on, or the straight lead of a contour, the control moves the path by what its register holds; it ends on a straight move, too",
         &[
             Item::Word(
                 "side",

@@ -117,10 +117,38 @@ fn a_control_without_it_gets_the_points_and_says_so_once() {
 
 #[test]
 fn fits_under_compensation_are_no_curves() {
-    let draft = Draft::new().rapid(90.0, 90.0, 25.0).add(left());
+    let draft = Draft::new().rapid(90.0, 90.0, 25.0).add(on(Side::Right, None));
     let draft = draft.contour(plate(Interpolation::Auto, Lead::Arc(4.0))).add(OFF).rapid(90.0, 90.0, 25.0);
     let made = made(&draft.cl, "fanuc", None);
-    assert!(!made.text.contains("G6.2") && made.text.contains("G41"), "{}", made.text);
+    assert!(!made.text.contains("G6.2") && made.text.contains("G42"), "{}", made.text);
+}
+
+#[test]
+fn a_straight_lead_begins_it_at_depth() {
+    let cut = |lead| {
+        let draft = Draft::new().rapid(90.0, 90.0, 25.0).add(on(Side::Right, None));
+        let draft = draft.contour(plate(Interpolation::Circular, lead)).add(OFF).rapid(90.0, 90.0, 25.0);
+        made(&draft.cl, "fanuc", None).text
+    };
+    let begins = |text: &str| text.lines().position(|line| line.contains("G42 D1")).unwrap();
+    let down = |text: &str| text.lines().position(|line| line.contains("G1 Z-")).unwrap();
+    let (straight, round) = (cut(Lead::Line(4.0)), cut(Lead::Arc(4.0)));
+    assert_eq!(begins(&straight), down(&straight) + 1, "{straight}");
+    assert!(begins(&round) < down(&round), "{round}");
+}
+
+#[test]
+fn compensation_into_the_part_is_refused() {
+    // The part lies left of it.
+    let cut = |side| {
+        let draft = Draft::new().rapid(90.0, 90.0, 25.0).add(on(side, None));
+        let draft = draft.contour(plate(Interpolation::Circular, Lead::Arc(4.0)));
+        lowered(&draft.add(OFF).rapid(90.0, 90.0, 25.0).cl, &dialect("fanuc", None), None)
+    };
+    let (target, messages) = cut(Side::Left);
+    assert!(target.is_none());
+    assert!(messages.iter().any(|m| m.message.contains("into the part, which lies left")), "{messages:#?}");
+    assert!(cut(Side::Right).0.is_some());
 }
 
 #[test]
@@ -146,7 +174,7 @@ fn what_controls_do_not_carry_out_is_refused() {
 
 #[test]
 fn tables_and_other_planes_are_refused_under_it() {
-    let draft = Draft::new().rapid(90.0, 0.0, 25.0).add(left());
+    let draft = Draft::new().rapid(90.0, 0.0, 25.0).add(on(Side::Right, None));
     let draft = draft.contour(plate(Interpolation::RTheta, Lead::Plunge)).add(OFF).rapid(90.0, 0.0, 25.0);
     let rotary = Some(crate::ir::Rotary { letter: Some('C'), reversed: false });
     let (target, messages) = lowered(&draft.cl, &dialect("fanuc", None), rotary);

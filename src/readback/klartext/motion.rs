@@ -329,15 +329,16 @@ impl Reader<'_> {
         self.state.parked &= asked.axes[2].is_none();
     }
 
-    /// What a move may not be while radius compensation begins, is in force or ends.
-    fn compensates<S: Follow>(&mut self, path: &TracePath, out: &mut Out<'_, S>) {
+    /// What a move may not be while radius compensation begins, is in force or ends; `from_afar` in the plane, from where
+    /// nobody knows.
+    fn compensates<S: Follow>(&mut self, path: &TracePath, from_afar: bool, out: &mut Out<'_, S>) {
         let on = self.state.compensation.is_some();
         if !on && !self.state.compensation_due {
             return;
         }
         match path {
             _ if on && self.state.in_cycle => out.fault("a cycle under radius compensation"),
-            TracePath::Line { from, to } => self.state.compensation_due &= from == to,
+            TracePath::Line { from, to } => self.state.compensation_due &= from == to && !from_afar,
             TracePath::Arc { .. } if core::mem::take(&mut self.state.compensation_due) => {
                 out.fault("radius compensation begins or ends on a circle");
             }
@@ -356,7 +357,8 @@ impl Reader<'_> {
         asked: &Asked,
         out: &mut Out<'_, S>,
     ) {
-        self.compensates(&path, out);
+        let from_afar = (0..2).any(|axis| asked.axes[axis].is_some() && !self.state.known[axis]);
+        self.compensates(&path, from_afar, out);
         let state = &self.state;
         let table = state.known[ROTARY] || asked.axes[ROTARY].is_none();
         let feed = if asked.rapid { None } else { self.path_feed(&path, &from, &to) };

@@ -97,15 +97,21 @@ impl Machine<'_> {
         self.state.radius.due = false;
     }
 
-    /// What a move may not be while the compensation begins, is in force or ends.
-    pub(super) fn compensates<S: Follow>(&mut self, path: &TracePath, in_cycle: bool, out: &mut Out<'_, S>) {
+    /// What a move may not be while the compensation begins, is in force or ends; `from_afar` in the plane, from where nobody
+    /// knows.
+    pub(super) fn compensates<S: Follow>(
+        &mut self,
+        path: &TracePath,
+        (in_cycle, from_afar): (bool, bool),
+        out: &mut Out<'_, S>,
+    ) {
         let radius = &mut self.state.radius;
         if radius.on.is_none() && !radius.due {
             return;
         }
         let due = radius.due;
         match path {
-            TracePath::Line { from, to } if !in_cycle => radius.due &= from == to,
+            TracePath::Line { from, to } if !in_cycle => radius.due &= from == to && !from_afar,
             _ if in_cycle && radius.on.is_some() => out.fault("a drilling cycle under cutter compensation"),
             // The way to a hole is straight.
             _ if in_cycle => radius.due = false,

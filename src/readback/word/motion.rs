@@ -310,7 +310,8 @@ impl Machine<'_> {
         let z = (from[2], target.to[2]);
         let feed = if rapid { None } else { self.path_feed(&path, &from, target) };
         let in_cycle = matches!(self.state.motion, Mode::Cycle(_)) || self.state.in_call;
-        self.compensates(&path, in_cycle, out);
+        let from_afar = (0..2).any(|axis| target.moved[axis] && !self.state.known[axis]);
+        self.compensates(&path, (in_cycle, from_afar), out);
         let known = self.known_before(target);
         let cut = TraceMove {
             path,
