@@ -78,7 +78,7 @@ impl Emitter<'_> {
         let (code, message, help) = match self.capabilities.compensation {
             None => (
                 &foreign::NO_COMPENSATION,
-                format!("`{name}` has no cutter compensation: the path is written as the points say"),
+                format!("`{name}` says no cutter compensation: the path is written as the points say"),
                 foreign::NO_COMPENSATION_HELP,
             ),
             Some(_) if self.capabilities.whole_points => return,

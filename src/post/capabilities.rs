@@ -160,7 +160,7 @@ impl Dialect {
             "as-named" => Register::AsNamed,
             _ => Register::OfTool,
         };
-        (!rules.left.is_empty()).then_some(register)
+        (!rules.left.is_empty() && rules.register != "none").then_some(register)
     }
 
     /// An option that picks the start of a modal group counts codes that there are.

@@ -349,8 +349,8 @@ const COMPENSATION: &[Key] = &[
     key("every-move", Shape::Flag, "every straight move says what is in force"),
     key(
         "register",
-        Shape::Choice(&["of-tool", "as-named", "always"]),
-        "the register of the radius: the tool's own and never said; said where the program names one; or always said, with the number of the tool where the program names none",
+        Shape::Choice(&["of-tool", "as-named", "always", "none"]),
+        "the register of the radius: the tool's own and never said; said where the program names one; or always said, with the number of the tool where the program names none. `none`: programs are written without compensation",
     ),
 ];
 const STOPS: &[Key] = &[

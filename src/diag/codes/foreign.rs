@@ -74,16 +74,16 @@ pub const NO_COMPENSATION_HELP: &str = "if the points are the part's contour and
 
 /// the control moves the path by what its register holds.
 pub const COMPENSATED: Code = Code {
-    id: "N1022",
+    id: "W1022",
     title: "the control moves the path by what its register holds",
-    page: include_str!("../../../docs/diagnostics/N1022.md"),
+    page: include_str!("../../../docs/diagnostics/W1022.md"),
 };
 
 /// What [`COMPENSATED`] says.
 pub const COMPENSATED_MESSAGE: &str =
     "the control moves this path by the radius that it holds: the proof is for a radius of 0";
 /// And what to do about it.
-pub const COMPENSATED_HELP: &str = "for points of the cutter's centre keep 0 there, or the wear alone; for points of the contour, the cutter's radius";
+pub const COMPENSATED_HELP: &str = "for points of the cutter's centre keep 0 there, or the wear alone, or write them as they are with `--post-set compensation.register=none`; for points of the contour it is the cutter's radius";
 
 /// an arc does not go through its points.
 pub const ARC_NOT_TRUSTED: Code = Code {

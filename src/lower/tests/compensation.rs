@@ -1,7 +1,7 @@
 //! Cutter compensation: where it may begin and end.
 
 use super::cl::{Draft, plate};
-use super::{dialect, lowered, made};
+use super::{dialect, lowered, made, made_with};
 use crate::cl::{Circle, Cycle, CycleKind, Lead, RecordKind, RetractTo};
 use crate::geom::{Point3, Side, Vec3};
 use crate::ir::{Compensation, Feed, Interpolation, Spindle};
@@ -111,6 +111,15 @@ fn a_control_without_it_gets_the_points_and_says_so_once() {
     let draft = start().add(left()).linear(10.0, 0.0, -1.0).add(OFF).linear(20.0, 0.0, -1.0);
     let draft = draft.add(left()).linear(30.0, 0.0, -1.0);
     let made = made(&draft.cl, "grbl", None);
+    assert_eq!(made.notes, ["W1010"]);
+    assert!(!made.text.contains("G41"), "{}", made.text);
+}
+
+#[test]
+fn a_post_may_leave_it_out() {
+    let draft = start().add(left()).linear(10.0, 0.0, -1.0).add(OFF).linear(20.0, 0.0, -1.0);
+    let text = "inherits = \"linuxcnc\"\n[compensation]\nregister = \"none\"\n";
+    let made = made_with(&draft.cl, &dialect("mine.post.toml", Some(text)), None);
     assert_eq!(made.notes, ["W1010"]);
     assert!(!made.text.contains("G41"), "{}", made.text);
 }
