@@ -23,9 +23,16 @@ pub(super) struct Compensating {
     /// X, Y and the table where the last move ended.
     at: [Option<i64>; 3],
     /// Number of the tool in the spindle.
-    pub tool: Option<u32>,
+    tool: Option<u32>,
     /// It was told that the control has none.
     told: bool,
+}
+
+impl Compensating {
+    /// Where a new tool is nobody knows.
+    pub(super) fn changes_to(&mut self, tool: Option<u32>) {
+        (self.tool, self.at) = (tool, [None; 3]);
+    }
 }
 
 /// For each record whether compensation is wanted there; empty where it never is.
@@ -46,8 +53,8 @@ pub(super) fn wanted(cl: &Cl) -> Vec<bool> {
 impl Emitter<'_> {
     /// `CUTCOM/`.
     pub(super) fn compensation(&mut self, wanted: Option<Compensation>) {
-        if wanted.is_some() && !core::mem::replace(&mut self.compensating.told, true) {
-            self.tell_compensation();
+        if let Some(on) = wanted.filter(|_| !core::mem::replace(&mut self.compensating.told, true)) {
+            self.tell_compensation(on);
         }
         if self.capabilities.compensation.is_none() || self.compensating.wanted == wanted {
             return;
@@ -73,7 +80,7 @@ impl Emitter<'_> {
     }
 
     /// Once for a program; a post that reads CL data tells it itself.
-    fn tell_compensation(&mut self) {
+    fn tell_compensation(&mut self, on: Compensation) {
         let name = &self.capabilities.name;
         let (code, message, help) = match self.capabilities.compensation {
             None => (
@@ -83,9 +90,12 @@ impl Emitter<'_> {
             ),
             Some(_) if self.capabilities.whole_points => return,
             Some(register) => {
-                let which = match register {
-                    Register::OfTool => "the radius of its tool",
-                    Register::AsNamed | Register::Always => "the radius in its register",
+                let which = match (register, on.register) {
+                    (Register::OfTool, Some(n)) => {
+                        format!("the radius of its tool, not by that in register {n},")
+                    }
+                    (Register::OfTool, None) => "the radius of its tool".to_owned(),
+                    _ => "the radius in its register".to_owned(),
                 };
                 let message =
                     format!("`{name}` moves this path by {which} where it is not 0: the proof is for 0");

@@ -378,7 +378,8 @@ impl<'a> Emitter<'a> {
         self.rise();
         self.changes += 1;
         let index = self.tools.index(tool);
-        self.compensating.tool = self.tools.list.get(index as usize).and_then(|tool| tool.number);
+        let number = self.tools.list.get(index as usize).and_then(|tool| tool.number);
+        self.compensating.changes_to(number);
         self.event(BlockKind::ToolChange(index));
         // A post may stop the coolant for the change: it is said again when the new tool moves.
         (self.standing, self.dry) = (false, self.coolant != Coolant::Off);

@@ -116,6 +116,29 @@ fn a_control_without_it_gets_the_points_and_says_so_once() {
 }
 
 #[test]
+fn a_register_that_cannot_be_said_is_told() {
+    let draft =
+        start().add(on(Side::Left, Some(21))).linear(10.0, 0.0, -1.0).add(OFF).linear(20.0, 0.0, -1.0);
+    let (_, messages) = lowered(&draft.cl, &dialect("sinumerik", None), None);
+    assert!(
+        messages.iter().any(|m| m.code.id == "W1022" && m.message.contains("register 21")),
+        "{messages:#?}"
+    );
+}
+
+#[test]
+fn the_way_from_a_tool_change_begins_it() {
+    let draft = start().rapid(0.0, 0.0, 5.0);
+    let tool = draft.cl.tools.iter().map(|(handle, _)| handle).next().unwrap();
+    let draft = draft.add(RecordKind::LoadTool(tool)).add(RecordKind::Spindle(Spindle::on(900.0, true)));
+    let draft = arc(draft.add(left()).rapid(0.0, 0.0, 5.0).linear(0.0, 0.0, -1.0), 10.0);
+    let draft = draft.add(OFF).linear(40.0, 10.0, -1.0);
+    for post in ["fanuc", "heidenhain", "sinumerik", "linuxcnc"] {
+        made(&draft.cl, post, None);
+    }
+}
+
+#[test]
 fn a_post_may_leave_it_out() {
     let draft = start().add(left()).linear(10.0, 0.0, -1.0).add(OFF).linear(20.0, 0.0, -1.0);
     let text = "inherits = \"linuxcnc\"\n[compensation]\nregister = \"none\"\n";
