@@ -291,23 +291,19 @@ impl Reader<'_> {
         if COMPENSATION.1.iter().any(|w| s.has(w)) {
             return self.end_compensation();
         }
-        let last = self.state.last_compensation;
-        // A side begins anew, and `ON` goes on as before.
-        let (side, before) = match () {
-            () if s.has("LEFT") => (Some(Side::Left), None),
-            () if s.has("RIGHT") => (Some(Side::Right), None),
-            () => (last.map(|last| last.side), last.and_then(|last| last.register)),
+        let side = match () {
+            () if s.has("LEFT") => Some(Side::Left),
+            () if s.has("RIGHT") => Some(Side::Right),
+            () => None,
         };
         let named = s.after("ADJUST").or_else(|| s.after("OSETNO")).or_else(|| s.numbers().first().copied());
         if let Some(bad) = named.filter(|n| n.fract() != 0.0 || !(0.0..1e8).contains(n)) {
             return self.complain(&codes::BAD_RECORD, format!("CUTCOM with the register {bad}"));
         }
-        let Some(side) = side else {
-            let message = "CUTCOM/ ON goes on with the side that was in force, and there was none";
-            return self.complain(&codes::BAD_RECORD, message.to_owned());
-        };
-        let register = named.map(|n| n as u32).or(before);
-        self.compensate(Compensation { side, register });
+        match Compensation::asked(side, named.map(|n| n as u32), self.state.last_compensation) {
+            Some(on) => self.compensate(on),
+            None => self.complain(&codes::BAD_RECORD, codes::NO_SIDE.to_owned()),
+        }
     }
 
     /// Compensation from the next move on.

@@ -399,6 +399,18 @@ pub struct Compensation {
     pub register: Option<u32>,
 }
 
+impl Compensation {
+    /// What `CUTCOM` asks for: a side begins anew, without one it goes on as `last`, whose register holds unless another is
+    /// named. `None` where there was no last one.
+    #[must_use]
+    pub fn asked(side: Option<Side>, named: Option<u32>, last: Option<Compensation>) -> Option<Compensation> {
+        match side {
+            Some(side) => Some(Compensation { side, register: named }),
+            None => last.map(|last| Compensation { register: named.or(last.register), ..last }),
+        }
+    }
+}
+
 impl core::fmt::Display for Compensation {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         f.write_str(if self.side == Side::Left { "left" } else { "right" })?;

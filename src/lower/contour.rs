@@ -44,17 +44,17 @@ pub fn fit_all(cl: &Cl, capabilities: &Capabilities, sink: &mut Sink) -> Vec<Opt
     // Controls refuse curves under their cutter compensation.
     let (compensated, plain) =
         (compensation::wanted(cl), Capabilities { nurbs: None, ..capabilities.clone() });
-    let alone = |i: usize| contours.get(i).is_some_and(|(r, _)| compensated.get(*r) == Some(&true));
+    let under = |i: usize| contours.get(i).is_some_and(|(r, _)| compensated.get(*r) == Some(&true));
     let leaders: Vec<usize> = (0..contours.len())
         .map(|i| {
-            (0..i).find(|&j| same_task(contours[i].1, contours[j].1) && alone(i) == alone(j)).unwrap_or(i)
+            (0..i).find(|&j| same_task(contours[i].1, contours[j].1) && under(i) == under(j)).unwrap_or(i)
         })
         .collect();
     let results: Vec<Option<Fitting>> = contours
         .par_iter()
         .enumerate()
         .map(|(i, (_, contour))| {
-            (leaders[i] == i).then(|| fit_one(contour, if alone(i) { &plain } else { capabilities }))
+            (leaders[i] == i).then(|| fit_one(contour, if under(i) { &plain } else { capabilities }))
         })
         .collect();
     let mut fitted = vec![None; cl.records.len()];

@@ -18,29 +18,25 @@ impl Analyser<'_> {
         if m.form != "on" {
             return self.step(StepKind::Compensation(None));
         }
-        let last = self.state.last_compensation;
-        // A side begins anew, and `ON` goes on as before.
-        let (side, before) = match m.word("side") {
-            Some("LEFT") => (Some(Side::Left), None),
-            Some("RIGHT") => (Some(Side::Right), None),
-            _ => (last.map(|last| last.side), last.and_then(|last| last.register)),
+        let side = match m.word("side") {
+            Some("LEFT") => Some(Side::Left),
+            Some("RIGHT") => Some(Side::Right),
+            _ => None,
         };
-        let Some(side) = side else {
-            let message = "CUTCOM/ ON goes on with the side that was in force, and there was none";
-            return self
-                .report(Diagnostic::new(&foreign::BAD_RECORD, m.word, message).help("write LEFT or RIGHT"));
+        let named = m.number("register").map(|n| n as u32);
+        let Some(on) = Compensation::asked(side, named, self.state.last_compensation) else {
+            let problem = Diagnostic::new(&foreign::BAD_RECORD, m.word, foreign::NO_SIDE);
+            return self.report(problem.help("write LEFT or RIGHT"));
         };
         if let Some(plane @ ("YZPLAN" | "ZXPLAN")) = m.word("plane") {
             let message = format!("CUTCOM in the plane {plane} cannot be carried out");
             return self.report(Diagnostic::new(&foreign::NOT_CARRIED_OUT, m.word, message));
         }
-        let named = m.number("register").map(|n| n as u32);
-        let register = named.or(before);
-        self.state.last_compensation = Some(Compensation { side, register });
+        self.state.last_compensation = Some(on);
         // The image of a path that is mirrored has the cutter on its other side.
         let mirrored = self.state.transform.as_ref().is_some_and(|(map, _)| map.mirrors_plan());
-        let side = if mirrored { side.opposite() } else { side };
-        self.step(StepKind::Compensation(Some(Compensation { side, register })));
+        let side = if mirrored { on.side.opposite() } else { on.side };
+        self.step(StepKind::Compensation(Some(Compensation { side, ..on })));
     }
 
     /// `TLAXIS/` and the last three numbers of `GOTO/`: along Z, or an error, once for a program.

@@ -4,7 +4,7 @@ use super::finding::{Finding, Text};
 use super::{Case, Placed};
 use crate::cl::RecordKind;
 use crate::diag::codes::verification as codes;
-use crate::ir::Coolant;
+use crate::ir::{Coolant, Tool};
 use crate::readback::{Compensated, TracePath, Washing};
 use crate::target::{BlockKind, FeedWord, Motion, power_of_ten};
 
@@ -55,9 +55,14 @@ pub(super) fn check(case: &Case<'_>, placed: &Placed<'_>) -> Vec<Finding> {
     found
 }
 
+/// The tool that the block was lowered for.
+fn loaded<'a>(case: &Case<'a>, placed: &Placed<'_>) -> Option<&'a Tool> {
+    case.target.tools.get(case.context(placed.block).tool? as usize)
+}
+
 /// The tool in the spindle is the one the block was lowered for, where it has a number.
 fn tool(case: &Case<'_>, placed: &Placed<'_>) -> Option<Text> {
-    let wanted = case.context(placed.block).tool.and_then(|t| case.target.tools.get(t as usize))?;
+    let wanted = loaded(case, placed)?;
     let number = wanted.number.filter(|_| case.needs.tool_change)?;
     let got = placed.cut.tool;
     (got != 0 && got != number).then(|| {
@@ -68,10 +73,9 @@ fn tool(case: &Case<'_>, placed: &Placed<'_>) -> Option<Text> {
 /// The cutter compensation that was asked for is in force on every cut in X or Y, where the control has one.
 fn compensation(case: &Case<'_>, placed: &Placed<'_>) -> Option<Text> {
     let wanted = asked(case, placed)?.compensation.zip(case.target.capabilities.compensation);
-    let tool = case.context(placed.block).tool.and_then(|t| case.target.tools.get(t as usize));
     let wanted = wanted.map(|(on, register)| Compensated {
         side: on.side,
-        register: register.said(on.register, tool.and_then(|t| t.number)),
+        register: register.said(on.register, loaded(case, placed).and_then(|tool| tool.number)),
     });
     let got = placed.cut.compensation;
     let across = !matches!(placed.cut.path, TracePath::Line { from, to } if from == to);

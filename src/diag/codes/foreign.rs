@@ -69,6 +69,9 @@ pub const NO_COMPENSATION: Code = Code {
     page: include_str!("../../../docs/diagnostics/W1010.md"),
 };
 
+/// What `CUTCOM/ ON` lacks where no side was given before.
+pub const NO_SIDE: &str = "CUTCOM/ ON goes on with the side that was in force, and there was none";
+
 /// What to do about [`NO_COMPENSATION`].
 pub const NO_COMPENSATION_HELP: &str = "if the points are the part's contour and not the cutter's centre, write the path of the centre instead: as it is, it cuts into the part by the radius";
 
