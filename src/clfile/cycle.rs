@@ -7,6 +7,7 @@ use crate::diag::Diagnostic;
 use crate::diag::codes::foreign as codes;
 use crate::geom::Point3;
 use crate::ir::{Feed, Spindle};
+use crate::units::LengthUnit;
 
 /// A cycle as asked for; lengths in mm.
 #[derive(Debug, Clone)]
@@ -107,7 +108,8 @@ pub(super) const FEEDS: &[&str] = &["MMPM", "IPM", "MMPR", "IPR", "PERMIN", "PER
 pub(super) const SILENT: &[&str] =
     &["ON", "TOOL", "SYNC", "AUTO", "NONE", "THRU", "RPM", "CLW", "FIX", "FLOAT", "RIGID"];
 /// Other words, with a number or without.
-pub(super) const OTHER: &[&str] = &["DWELL", "REV", "PITCH", "LEFT", "CCLW", "DRAG", "NODRAG", "ORIENT"];
+pub(super) const OTHER: &[&str] =
+    &["DWELL", "REV", "PITCH", "TPI", "LEFT", "CCLW", "DRAG", "NODRAG", "ORIENT"];
 /// Kinds of cycle by what they do.
 pub(super) const KINDS: &[(&[&str], Action)] = &[
     (&["DRILL", "THRU", "CSINK", "SPOTDR"], Action::Drill),
@@ -243,7 +245,11 @@ impl Reader<'_> {
             (Action::Deep, _) => CycleKind::Deep,
             (Action::ChipBreak, _) => CycleKind::ChipBreak,
             (Action::Tap, _) => {
-                let pitch = s.after("PITCH").map(|pitch| pitch * self.state.scale);
+                let pitch = match s.after("TPI") {
+                    Some(threads) if threads > 0.0 => Some(LengthUnit::Inch.in_mm() / threads),
+                    Some(threads) => return Err(format!("a tap cannot cut {threads} threads an inch")),
+                    None => s.after("PITCH").map(|pitch| pitch * self.state.scale),
+                };
                 let left = s.has("LEFT") || s.has("CCLW");
                 return Ok((CycleKind::Tap { pitch: pitch.unwrap_or(0.0), left }, pitch.is_none()));
             }

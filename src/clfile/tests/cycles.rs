@@ -49,6 +49,11 @@ fn a_tap_has_the_pitch_and_hand_of_the_speed_at_its_hole() {
         taps("CYCLE/ TAP, FEDTO, 9, RAPTO, 2, PITCH, 1\nSPINDL/ 250\nGOTO/ 1, 0, 0"),
         [tap(1.0, false)]
     );
+    // Threads an inch, whatever the file counts in.
+    assert_eq!(
+        taps("SPINDL/ 250\nCYCLE/ TAP, DEPTH, 9, TPI, 20, CLEAR, 2\nGOTO/ 1, 0, 0"),
+        [tap(1.27, false)]
+    );
 }
 
 #[test]
@@ -64,6 +69,8 @@ fn numbers_that_do_not_belong_to_the_hole_are_told() {
         // Pecks of a cycle that has none.
         "CYCLE/ DRILL, FEDTO, 20, STEP, 5, RAPTO, 2",
         "CYCLE/ TAP, FEDTO, 20, STEP, 5, RAPTO, 2, PITCH, 1",
+        // Threads that nobody can cut.
+        "CYCLE/ TAP, FEDTO, 20, RAPTO, 2, TPI, 0",
         // An angle where a distance off the wall is meant.
         "CYCLE/ BORE, FEDTO, 20, RAPTO, 2, ORIENT, 90",
         "CYCLE/ BORE, FEDTO, 20, RAPTO, 2, ORIENT, -1",

@@ -87,6 +87,7 @@ const EXAMPLES: &[(&str, &[&str])] = &[
             "CYCLE/ CHIP, FEDTO, 20, STEP, 4, RAPTO, 2, MMPM, 50\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
             "CYCLE/ DRILL, BRKCHP, FEDTO, 20, STEP, 4, RAPTO, 2, MMPM, 50\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
             "CYCLE/ TAP, FEDTO, 12, PITCH, 1.25, RAPTO, 2\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
+            "CYCLE/ TAP, DEPTH, 12, TPI, 20, CLEAR, 2\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
             "CYCLE/ TAP, FEDTO, 12, MMPR, 1.25, RAPTO, 2, LEFT\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
             "CYCLE/ TAP, FIX, FEDTO, 12, MMPM, 1500, RAPTO, 2, CCLW\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
             "CYCLE/ TAP, FLOAT, FEDTO, 12, MMPM, 1500, RAPTO, 2, CLW\nGOTO/ 1, 1, 0\nCYCLE/ OFF",
